@@ -1,0 +1,256 @@
+#include "arguments.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <map>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "base/text.h"
+#include "base/version.h"
+#include "job/command.h"
+
+namespace searchlight {
+
+namespace {
+
+std::string flagOf(std::string_view name) {
+    std::string flag = "--" + std::string(name);
+    std::ranges::replace(flag, '_', '-');
+    return flag;
+}
+
+// "number from 0 to 1 1/mm; default 0.5": what stands behind an option in --help.
+std::string describe(const Param& param) {
+    std::string text = param.doc;
+    if (param.type == ParamType::choice)
+        text += ": " + join(param.choices, ", ");
+    else if (!param.unit.empty())
+        text += fmt::format(" [{}]", param.unit);
+    const std::string value = valueText(param.value);
+    if (!param.required && !value.empty()) text += fmt::format(" (default {})", value);
+    return text;
+}
+
+// The arguments of one subcommand as they were typed.
+struct Typed {
+    const Command* command = nullptr;
+    CLI::App* app = nullptr;
+    std::map<std::string, std::vector<std::string>, std::less<>> options;   // of the command
+    std::map<std::string, std::vector<std::string>, std::less<>> material;  // of the scene's material
+    std::string scene, seed, output;
+};
+
+struct MaterialFlag {
+    const char* name;
+    const char* doc;
+};
+
+constexpr MaterialFlag material_flags[] = {
+    {"material", "a measured material: its id, source:id or table.csv:id (default skin1)"},
+    {"sigma_a", "absorption coefficient: one number or R,G,B [1/mm]"},
+    {"sigma_s", "scattering coefficient, not reduced [1/mm]"},
+    {"g", "mean cosine of the phase function (default 0)"},
+    {"eta", "refractive index, inside over outside (default 1.3)"},
+    {"Rdr", "total diffuse reflectance, inverted by the dipole, with --ld"},
+    {"ld", "diffuse mean free path [mm]"},
+};
+
+void addOption(CLI::App& app, const std::string& name, std::vector<std::string>& into, const std::string& doc) {
+    app.add_option(name, into, doc)
+        ->type_name("")
+        ->type_size(1)
+        ->expected(1)
+        ->allow_extra_args(false)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
+// The subcommand at the end of the words of `name`, made where it is missing.
+CLI::App& subcommand(CLI::App& root, const Command& command) {
+    CLI::App* app = &root;
+    const std::vector<std::string_view> words = split(command.name, ' ');
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        const std::string word(words[i]);
+        const bool last = i + 1 == words.size();
+        const std::vector<CLI::App*> same = app->get_subcommands([&](const CLI::App* sub) { return sub->get_name() == word; });
+        CLI::App* next = same.empty() ? nullptr : same.front();
+        if (!next) next = app->add_subcommand(word, last ? std::string(command.summary) : "Several kinds: see --help");
+        next->allow_extras();
+        app = next;
+    }
+    return *app;
+}
+
+void declare(CLI::App& root, Typed& typed, bool& json, bool& print_job) {
+    const Command& command = *typed.command;
+    CLI::App& app = subcommand(root, command);
+    typed.app = &app;
+    app.footer("Example:\n  " + std::string(command.example));
+    for (const Param& param : command.options) {
+        std::string names = flagOf(param.name);
+        if (param.name == command.positional) names += "," + param.name;
+        addOption(app, names, typed.options[param.name], describe(param));
+    }
+    if (command.uses_material) {
+        for (const MaterialFlag& flag : material_flags)
+            addOption(app, flagOf(flag.name), typed.material[flag.name], flag.doc);
+        app.add_option("--scene", typed.scene, "a scene file, whose material is used")->type_name("");
+    }
+    if (command.uses_seed) app.add_option("--seed", typed.seed, "of the random walks (default 1)")->type_name("");
+    if (!command.output.empty())
+        app.add_option("-o,--output", typed.output, std::string(command.output))->type_name("");
+    app.add_flag("--json", json, "print one JSON document");
+    app.add_flag("--print-job", print_job, "print the job file for `searchlight run` and stop");
+}
+
+const std::string* lastOf(const std::map<std::string, std::vector<std::string>, std::less<>>& typed,
+                          std::string_view name) {
+    const auto found = typed.find(name);
+    return found == typed.end() || found->second.empty() ? nullptr : &found->second.back();
+}
+
+// The material flags, read as the scene format reads its keys.
+void applyMaterial(const Typed& typed, SceneMaterial& material) {
+    const std::vector<SceneSection>& sections = sceneSections();
+    const auto section = std::ranges::find(sections, "material", &SceneSection::name);
+    const auto list = [&](const char* name) {
+        return std::get<std::vector<double>>(
+            parseValue(findParam(section->keys, name, "option"), *lastOf(typed.material, name)));
+    };
+    const bool named = lastOf(typed.material, "material"), spelled = lastOf(typed.material, "sigma_s") || lastOf(typed.material, "sigma_a"),
+               inverted = lastOf(typed.material, "Rdr") || lastOf(typed.material, "ld");
+    if (named + spelled + inverted > 1)
+        throw usageError("the material is given twice", "one of --material, --sigma-a with --sigma-s, --Rdr with --ld");
+    if (named) {
+        if (lastOf(typed.material, "g") || lastOf(typed.material, "eta"))
+            throw usageError("--g and --eta belong to --sigma-a and --sigma-s or to --Rdr and --ld",
+                             "a named material has its own");
+        material = {};
+        material.id = *lastOf(typed.material, "material");
+        return;
+    }
+    if (!spelled && !inverted) {
+        if (lastOf(typed.material, "g") || lastOf(typed.material, "eta"))
+            throw usageError("--g and --eta alone make no material", "add --sigma-a and --sigma-s, or --Rdr and --ld");
+        return;
+    }
+    material = {};
+    material.id.clear();
+    const auto need = [&](const char* a, const char* b) {
+        if (!lastOf(typed.material, a)) throw usageError(fmt::format("{} needs {}", flagOf(b), flagOf(a)));
+        if (!lastOf(typed.material, b)) throw usageError(fmt::format("{} needs {}", flagOf(a), flagOf(b)));
+    };
+    if (spelled) {
+        need("sigma_a", "sigma_s");
+        material.sigma_a = list("sigma_a");
+        material.sigma_s = list("sigma_s");
+    } else {
+        need("Rdr", "ld");
+        material.Rdr = list("Rdr");
+        material.ld = list("ld");
+    }
+    if (lastOf(typed.material, "g")) material.g = list("g");
+    if (const std::string* eta = lastOf(typed.material, "eta"))
+        material.eta = std::get<double>(parseValue(findParam(section->keys, "eta", "option"), *eta));
+}
+
+Job jobOf(const Typed& typed) {
+    Job job;
+    job.command = typed.command->name;
+    if (!typed.scene.empty()) job.scene = parseScene(readFile(typed.scene), typed.scene);
+    if (typed.command->uses_material) applyMaterial(typed, job.scene.material);
+    for (const Param& param : typed.command->options) {
+        const std::vector<std::string>& values = typed.options.at(param.name);
+        if (values.empty()) {
+            if (param.required) throw usageError(fmt::format("{} is missing", flagOf(param.name)), std::string(typed.command->example));
+            continue;
+        }
+        // A list in text, such as --set, may be given piece by piece.
+        const bool joins = param.type == ParamType::text && param.name != typed.command->positional;
+        job.options[param.name] = parseValue(param, joins ? join(values, ",") : values.back());
+    }
+    if (!typed.seed.empty()) {
+        const std::optional<double> seed = parseNumber(typed.seed);
+        if (!seed || *seed < 0 || *seed != std::floor(*seed) || *seed > 9007199254740992.0)
+            throw usageError(fmt::format("'{}' is no seed", typed.seed), "a whole number from 0 to 2^53");
+        job.seed = static_cast<std::uint64_t>(*seed);
+    }
+    job.output = typed.output;
+    return job;
+}
+
+// What CLI11 could not place: an option of no command, or a word too many.
+Error strayError(const CLI::App& app, const std::string& stray, bool has_subcommands) {
+    if (stray.starts_with("-")) {
+        std::vector<std::string> names;
+        for (const CLI::Option* option : app.get_options())
+            for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+        return unknownName(ErrorKind::usage, "option", stray.substr(0, stray.find('=')), names);
+    }
+    if (has_subcommands) {
+        std::vector<std::string> names;
+        for (const CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; })) names.push_back(sub->get_name());
+        return unknownName(ErrorKind::usage, "command", stray, names);
+    }
+    return usageError(fmt::format("'{}' is one word too many", stray), "see --help");
+}
+
+}  // namespace
+
+Arguments parseArguments(int argc, char** argv) {
+    CLI::App root("Searchlight: develops, displays, compares and validates models of subsurface scattering.", "searchlight");
+    root.set_version_flag("--version", fmt::format("searchlight {}", version()));
+    root.set_help_flag("-h,--help", "Say how this is used");
+    root.footer("searchlight COMMAND --help says more, with an example.");
+    root.allow_extras();
+
+    Arguments arguments;
+    std::vector<Typed> all(commands().size());
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        all[i].command = &commands()[i];
+        declare(root, all[i], arguments.json, arguments.print_job);
+    }
+    std::string job_path, job_output;
+    CLI::App* run_job = root.add_subcommand("run", "Run a job file");
+    run_job->add_option("job", job_path, "a file that --print-job wrote")->required()->type_name("JOB.json");
+    run_job->add_option("-o,--output", job_output, "in place of the job's own")->type_name("");
+    run_job->add_flag("--json", arguments.json, "print one JSON document");
+    run_job->footer("Example:\n  searchlight run job.json");
+    run_job->allow_extras();
+
+    try {
+        root.parse(argc, argv);
+    } catch (const CLI::CallForHelp&) {
+        arguments.text = root.help();
+        return arguments;
+    } catch (const CLI::CallForVersion&) {
+        arguments.text = fmt::format("searchlight {}\n", version());
+        return arguments;
+    } catch (const CLI::ParseError& error) {
+        throw usageError(error.what(), "see --help");
+    }
+
+    // The innermost subcommand that was named.
+    CLI::App* app = &root;
+    while (!app->get_subcommands().empty()) app = app->get_subcommands().front();
+    const bool has_subcommands = !app->get_subcommands([](const CLI::App*) { return true; }).empty();
+    for (const CLI::App* level = app; level; level = level->get_parent())
+        if (!level->remaining().empty()) throw strayError(*app, level->remaining().front(), has_subcommands);
+
+    if (app == run_job) {
+        arguments.job = parseJob(readFile(job_path), job_path);
+        if (!job_output.empty()) arguments.job->output = job_output;
+        return arguments;
+    }
+    for (const Typed& typed : all)
+        if (typed.app == app) {
+            arguments.job = jobOf(typed);
+            return arguments;
+        }
+    arguments.text = app->help();  // no command, or one of several kinds
+    return arguments;
+}
+
+}  // namespace searchlight

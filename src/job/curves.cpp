@@ -1,0 +1,183 @@
+#include "job/curves.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "model/plane.h"
+
+namespace searchlight {
+
+namespace {
+
+constexpr double not_applicable = std::numeric_limits<double>::quiet_NaN();
+
+// Channels must not share random numbers: their errors are drawn as independent. Odd constant of [Steele2014].
+std::uint64_t channelSeed(std::uint64_t seed, int channel) {
+    return seed + static_cast<std::uint64_t>(channel) * 0x9e3779b97f4a7c15u;
+}
+
+}  // namespace
+
+std::uint64_t ReferenceRun::walks() const {
+    std::uint64_t sum = 0;
+    for (const auto& channel : channels)
+        if (channel) sum += channel->walks;
+    return sum;
+}
+
+double ReferenceRun::seconds() const {
+    double sum = 0;
+    for (const auto& channel : channels)
+        if (channel) sum += channel->seconds;
+    return sum;
+}
+
+PencilReference ReferenceRun::curve() const {
+    PencilReference curve;
+    std::uint64_t per_channel = 0;
+    const std::size_t bins = edges_mm.size() - 1;
+    curve.edges_mm = edges_mm;
+    curve.Rd.assign(bins, {not_applicable, not_applicable, not_applicable});
+    curve.standard_error = curve.Rd;
+    for (int c = 0; c < Rgb::channels; ++c) {
+        // A medium of one channel shows the same curve in all three.
+        const auto& walked = channels[medium.channels == 1 ? 0 : static_cast<std::size_t>(c)];
+        if (!walked) continue;
+        per_channel = walked->walks;
+        for (std::size_t i = 0; i < bins; ++i) {
+            curve.Rd[i][c] = walked->all.Rd[i];
+            curve.standard_error[i][c] = walked->all.standard_error[i];
+        }
+    }
+    curve.label = fmt::format("Monte Carlo, {} walks", countText(static_cast<double>(per_channel)));
+    return curve;
+}
+
+ReferenceRun runReference(const Medium& medium, const ReferenceOptions& options, Observer& observer) {
+    ReferenceRun run;
+    run.medium = medium;
+    run.angle_deg = options.angle_deg;
+    run.edges_mm = options.edges_mm.empty() ? plotEdges(medium, 0, 100) : options.edges_mm;
+    for (int c = 0; c < medium.channels; ++c) {
+        if (!medium.scatters(c) || (medium.channels > 1 && !options.only[c])) continue;
+        HalfSpaceOptions walk;
+        walk.walks = options.walks;
+        walk.seed = channelSeed(options.seed, c);
+        walk.edges_mm = run.edges_mm;
+        walk.grid = options.grid;
+        walk.grid_extent_mm = options.grid_extent_mm;
+        walk.threads = options.threads;
+        run.channels[static_cast<std::size_t>(c)] = walkHalfSpace(halfSpaceProblem(medium, c, options.angle_deg), walk, observer);
+    }
+    return run;
+}
+
+std::vector<LoadedModel> loadModels(const std::vector<std::string>& names, std::string_view backend,
+                                    const Subject& subject, Engine& engine) {
+    std::vector<std::string> all = names;
+    if (all == std::vector<std::string>{"all"}) {
+        all.clear();
+        for (const Model& model : shippedModels()) all.push_back(model.id);
+    }
+    if (all.empty()) throw usageError("no model was named", "--models dipole,better_dipole, or all");
+    std::vector<LoadedModel> loaded;
+    for (const std::string& name : all) loaded.push_back(engine.load(name, {}, backend, subject.medium));
+    return loaded;
+}
+
+PencilCurve modelCurve(LoadedModel& loaded, double angle_deg, const std::vector<double>& radii_mm,
+                       const std::vector<double>& edges_mm) {
+    const double entry = pencilBeam(loaded.medium.eta, angle_deg).transmittance;
+    PencilCurve curve;
+    curve.label = loaded.model.file.title;
+    for (const auto& [name, value] : loaded.parameters) curve.label += fmt::format(", {} {}", name, valueText(value));
+    curve.x_mm = radii_mm;
+    curve.Rd = radialRd(*loaded.evaluator, loaded.model, loaded.medium, angle_deg, radii_mm);
+    if (!edges_mm.empty()) curve.bin_means = annulusMeans(*loaded.evaluator, loaded.model, loaded.medium, angle_deg, edges_mm);
+    for (auto* values : {&curve.Rd, &curve.bin_means})
+        for (Rgb& value : *values)
+            for (int c = 0; c < Rgb::channels; ++c)
+                value[c] = loaded.medium.scatters(c) ? entry * value[c] : not_applicable;
+    return curve;
+}
+
+std::vector<double> plotEdges(const Medium& medium, double r_max_mm, int bins) {
+    double r_max = r_max_mm;
+    if (r_max <= 0) {
+        // Five diffuse mean free paths hold what can be seen; weakly absorbing media are cut at forty mean free paths.
+        for (int c = 0; c < medium.channels; ++c) {
+            if (!medium.scatters(c)) continue;
+            const double sigma_tp = medium.sigmaTp()[c];
+            const double sigma_tr = std::sqrt(3 * medium.sigma_a[c] * sigma_tp);
+            r_max = std::max(r_max, std::min(5 / std::max(sigma_tr, 1e-30), 40 / sigma_tp));
+        }
+    }
+    std::vector<double> edges;
+    for (int i = 0; i <= bins; ++i) edges.push_back(r_max * i * i / (static_cast<double>(bins) * bins));
+    return edges;
+}
+
+std::vector<double> curveRadii(double r_max_mm, int count) {
+    std::vector<double> radii;
+    for (int i = 0; i < count; ++i) radii.push_back(r_max_mm * std::pow(10.0, 3.0 * i / (count - 1) - 3));
+    return radii;
+}
+
+AlbedoData albedoData(double eta, double g, const std::vector<std::string>& models, std::uint64_t walks,
+                      std::uint64_t seed, std::string_view backend, Engine& engine, Observer& observer) {
+    const auto mediumAt = [&](double a, double b, double c) {
+        // Unit reduced extinction: totals do not depend on the scale.
+        Medium medium;
+        const Rgb alpha{a, b, c};
+        medium.sigma_a = Rgb{1, 1, 1} - alpha;
+        medium.sigma_s = 1 / (1 - g) * alpha;
+        medium.g = {g, g, g};
+        medium.eta = eta;
+        return medium;
+    };
+    AlbedoData data;
+    const double entry = pencilBeam(eta, 0).transmittance;
+    Subject subject;
+    subject.medium = mediumAt(.5, .5, .5);
+    for (LoadedModel& loaded : loadModels(models, backend, subject, engine)) {
+        AlbedoCurve curve;
+        curve.label = loaded.model.file.title;
+        // Three albedos at a time, one per channel; denser towards 1, where the curve bends.
+        constexpr int count = 60;
+        const auto albedoAt = [](int i) { return 1 - std::pow(1 - i / (count + 0.5), 2); };
+        for (int i = 1; i <= count; i += 3) {
+            const Medium medium = mediumAt(albedoAt(i), albedoAt(i + 1), albedoAt(i + 2));
+            loaded.evaluator->set(medium, loaded.parameters);
+            const Rgb total = totalRd(*loaded.evaluator, loaded.model, medium);
+            for (int c = 0; c < Rgb::channels; ++c) {
+                curve.albedo.push_back(albedoAt(i + c));
+                curve.total.push_back(entry * total[c]);
+            }
+        }
+        data.models.push_back(std::move(curve));
+    }
+    if (walks > 0) {
+        AlbedoReference reference;
+        reference.label = fmt::format("Monte Carlo, {} walks a point", countText(static_cast<double>(walks)));
+        for (const double albedo : {.1, .2, .3, .4, .5, .6, .7, .8, .9, .95, .98, .99}) {
+            Medium medium = mediumAt(albedo, albedo, albedo);
+            medium.channels = 1;
+            ReferenceOptions options;
+            options.walks = walks;
+            options.seed = seed;
+            options.edges_mm = {0, 1};
+            const ReferenceRun run = runReference(medium, options, observer);
+            reference.albedo.push_back(albedo);
+            reference.total.push_back(run.channels[0]->all.total);
+        }
+        data.reference = std::move(reference);
+    }
+    return data;
+}
+
+}  // namespace searchlight

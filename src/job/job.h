@@ -1,0 +1,39 @@
+// A Job is plain data: what the command line, a job file, the window and a test all build, and run() carries out.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "base/observer.h"
+#include "base/param.h"
+#include "scene/scene.h"
+
+namespace searchlight {
+
+struct Job {
+    std::string command;  ///< a name of commands(): "profile", "reference halfspace"
+    Scene scene;          ///< material, object, camera, lights; commands read what they need of it
+    ParamValues options;  ///< by the names of the command's Params; absent: default
+    std::uint64_t seed = 1;
+    std::string output;  ///< a file or folder; empty: only the result's text
+};
+
+/// `{"format": "searchlight-job/1", "command", "scene", "options", "seed", "output"}`. Throws an input Error with file,
+/// line and column for JSON that cannot be read, with the JSON pointer for a value that makes no sense; a newer format
+/// and unknown keys are refused by name.
+Job parseJob(std::string_view text, std::string_view path);
+
+/// The text that parseJob reads back as the same job.
+std::string jobJson(const Job& job);
+
+struct JobResult {
+    std::string text;  ///< for people
+    std::string json;  ///< for machines; one document
+    bool passed = true;///< false: a check failed (exit code 1)
+};
+
+/// Does the work. Files are written only when all of it succeeded. Throws Error.
+JobResult run(const Job& job, Observer& observer);
+
+}  // namespace searchlight

@@ -1,0 +1,65 @@
+#include "model/model.h"
+
+#include <fmt/format.h>
+
+#include "base/embedded.h"
+#include "base/error.h"
+#include "base/files.h"
+#include "model/measured_file.h"
+
+namespace searchlight {
+
+namespace {
+
+constexpr std::string_view folder = "models/";
+constexpr std::string_view ending = ".bssrdf";
+
+std::string_view stemOf(std::string_view path) {
+    path.remove_prefix(path.find_last_of("/\\") == std::string_view::npos ? 0 : path.find_last_of("/\\") + 1);
+    return path.substr(0, path.rfind('.'));
+}
+
+Model parseModel(std::string_view text, std::string_view path) {
+    Model model;
+    model.id = stemOf(path);
+    model.file = parseBssrdf(text, path);
+    // A copy of a shipped model, under its own name, is that model.
+    model.shipped = embeddedText(fmt::format("{}{}{}", folder, model.id, ending)) == text;
+    return model;
+}
+
+bool isPath(std::string_view text) { return text.find_first_of("/\\.") != std::string_view::npos; }
+
+}  // namespace
+
+const std::vector<Model>& shippedModels() {
+    static const std::vector<Model> models = [] {
+        std::vector<Model> found;
+        for (const EmbeddedFile& file : embeddedFiles())
+            if (file.path.starts_with(folder) && file.path.ends_with(ending))
+                found.push_back(parseModel(file.text, file.path));
+        return found;
+    }();
+    return models;
+}
+
+Model loadModel(std::string_view id_or_path) {
+    if (isPath(id_or_path)) {
+        const std::string text = readFile(id_or_path);
+        if (id_or_path.ends_with(ending)) return parseModel(text, id_or_path);
+        if (!id_or_path.ends_with(".csv"))
+            throw inputError("a model's file name ends in .bssrdf (a model) or .csv (a measured profile)")
+                .at(id_or_path);
+        Model model = parseMeasured(text, id_or_path);
+        model.id = stemOf(id_or_path);
+        return model;
+    }
+    std::vector<std::string> ids;
+    for (const Model& model : shippedModels()) {
+        if (model.id == id_or_path) return model;
+        ids.push_back(model.id);
+    }
+    throw unknownName(ErrorKind::usage, "model", id_or_path, ids);
+}
+
+}  // namespace searchlight

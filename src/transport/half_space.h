@@ -1,0 +1,63 @@
+// The searchlight problem by unbiased Monte Carlo: a pencil beam on a half-space, one channel at a time.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/estimate.h"
+#include "base/observer.h"
+#include "scene/medium.h"
+
+namespace searchlight {
+
+struct HalfSpaceProblem {
+    double sigma_a = 0;    ///< 1/mm
+    double sigma_s = 1;    ///< 1/mm, not reduced
+    double g = 0;          ///< Henyey-Greenstein mean cosine, |g| < 1
+    double eta = 1;        ///< refractive index inside over outside; smooth Fresnel boundary
+    double angle_deg = 0;  ///< of incidence outside, [0, 90); the refracted beam leans towards +x
+};
+
+struct HalfSpaceOptions {
+    std::uint64_t walks = 1'000'000;
+    std::uint64_t seed = 1;
+    std::vector<double> edges_mm;  ///< of the radial bins about the entry point, ascending, at least 2, first >= 0
+    int grid = 0;                  ///< cells per side of the square tally R(x, y); 0: none
+    double grid_extent_mm = 0;     ///< the square is [-extent, extent]^2
+    int threads = 0;               ///< 0: all
+};
+
+/// What left the surface after scattering, per unit incident flux.
+struct HalfSpaceTally {
+    Estimate total;                     ///< diffuse reflectance, everything that left, also beyond the last edge
+    std::vector<double> Rd;             ///< mean over each annulus, 1/mm^2, n values for n + 1 edges
+    /// Of Rd, from the scatter of the chunks; never below that of one exit, so that an empty bin has a bound, not a 0.
+    std::vector<double> standard_error;
+    std::vector<double> beyond;         ///< one value: flux outside the edges; kept apart from the last bin
+    Estimate mean_x_mm;                 ///< first moment: shift of the mean exit point towards +x, of what left
+    Estimate mean_r2_mm2;               ///< second moment about the entry point
+    std::vector<double> grid;           ///< row-major over y then x, 1/mm^2, grid * grid values, or empty
+    std::vector<double> grid_standard_error;
+};
+
+struct HalfSpaceResult {
+    double specular = 0;      ///< Fresnel reflectance of the beam, not part of the tallies
+    HalfSpaceTally all;       ///< every order: single + multiple
+    HalfSpaceTally single;    ///< scattered exactly once
+    HalfSpaceTally multiple;  ///< scattered twice or more
+    std::uint64_t walks = 0;
+    std::uint64_t collisions = 0;
+    double seconds = 0;  ///< wall time of walking
+    int threads = 0;
+    std::string instruction_set;  ///< "AVX3" (AVX-512), "AVX2", "SSE4"...
+};
+
+/// The searchlight problem of one channel of a medium.
+HalfSpaceProblem halfSpaceProblem(const Medium& medium, int channel, double angle_deg = 0);
+
+/// Walks. The result depends on problem, walks, seed and edges alone, not on threads; AVX2 and AVX-512 agree bit for
+/// bit. Throws an input Error for an impossible problem, interruptedError() when the observer cancels.
+HalfSpaceResult walkHalfSpace(const HalfSpaceProblem& problem, const HalfSpaceOptions& options, Observer& observer);
+
+}  // namespace searchlight

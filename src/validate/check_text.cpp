@@ -1,0 +1,52 @@
+// The file itself: readable, compiling, portable, and the same on both backends.
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "model/physics.h"
+#include "validate/check_bench.h"
+
+namespace searchlight {
+
+Finding checkFormat(CheckBench& bench) {
+    const BssrdfFile& file = bench.file();
+    return passed(fmt::format("{}: {}", file.title, join(file.attributes, " ")));
+}
+
+Finding checkCompiles(CheckBench& bench) {
+    if (bench.model().measured) return skipped("a measured profile has no GLSL");
+    if (!bench.gl()) return skipped(bench.noGl());
+    bench.gl()->set(checkMedia().front(), bench.parameters());
+    // Compiled when first called.
+    if (bench.file().diffuse_reflectance.present()) bench.gl()->diffuseReflectance({0.5, 0.5, 0.5});
+    return passed(bench.gl()->backend());
+}
+
+Finding checkPortable(CheckBench& bench) {
+    if (bench.model().measured) return skipped("a measured profile has no GLSL");
+    if (const auto reason = portabilityError(bench.file()))
+        return reported(fmt::format("runs on OpenGL only: {}", reason->what()));
+    return passed("inside the subset");
+}
+
+Finding checkBackendsAgree(CheckBench& bench) {
+    if (!bench.isNative() || bench.model().measured) return skipped("it has one backend");
+    if (!bench.gl()) return skipped(bench.noGl());
+    // Float carries exponents of up to 50 to 3e-6; the models subtract nothing that would lose more.
+    constexpr double tolerance = 1e-5;
+    const Probe probe = makeProbe();
+    Difference worst;
+    for (const Medium& medium : checkMedia()) {
+        const std::vector<Rgb> native = bench.values(medium, probe);
+        std::vector<Rgb> gl(native.size());
+        bench.gl()->set(medium, bench.parameters());
+        bench.gl()->evaluate(probe.queries, gl);
+        worst.see(CheckBench::difference(medium, probe, native, gl));
+    }
+    if (worst.relative > tolerance)
+        return failed(fmt::format("they differ by {} at {}", prettyNumber(worst.relative, 2), worst.where));
+    return passed(fmt::format("{} and {} differ by {} at most", bench.evaluator().backend(), bench.gl()->backend(),
+                              prettyNumber(worst.relative, 2)));
+}
+
+}  // namespace searchlight

@@ -1,0 +1,62 @@
+#include "draw/report.h"
+
+#include <regex>
+
+#include "well_formed.h"
+
+namespace searchlight {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+Report example() {
+    Report report;
+    report.title = "skin1 <& co>";
+    report.summary = "The summary.";
+    ReportSection section;
+    section.heading = "Errors";
+    section.paragraphs = {"One & two."};
+    section.tables.push_back({"In numbers",
+                              {"Model", "RMS, %", "Total", "Remark"},
+                              {{"dipole", "-12.3 %", "0.31", "1 of 2 fits"}, {"better", "4", "—", ""}}});
+    Figure figure;
+    figure.title = "A figure";
+    figure.series.push_back({.label = "line", .x = {0, 1}, .y = {0, 1}, .color = 0});
+    section.figures = {figure, figure};
+    report.sections = {section};
+    report.metadata = {{"seed", "1"}};
+    return report;
+}
+
+TEST(ReportHtml, IsWellFormed) { EXPECT_EQ(xmlProblem(reportHtml(example()), {"meta"}), ""); }
+
+TEST(ReportHtml, LoadsNothingAndRunsNothing) {
+    const std::string html = reportHtml(example());
+    EXPECT_FALSE(std::regex_search(html, std::regex("src=|href=|@import|url\\(|<script|<link|<iframe| on[a-z]+=")));
+    // The only address is the name of the SVG namespace, which nobody fetches.
+    const std::string without = std::regex_replace(html, std::regex("xmlns=\"http://www.w3.org/2000/svg\""), "");
+    EXPECT_THAT(without, Not(HasSubstr("http")));
+}
+
+TEST(ReportHtml, NumericColumnsAreRightAligned) {
+    const std::string html = reportHtml(example());
+    EXPECT_THAT(html, HasSubstr("<th scope=\"col\" class=\"number\">RMS, %</th>"));
+    EXPECT_THAT(html, HasSubstr("<td class=\"number\">-12.3 %</td><td class=\"number\">0.31</td>"));
+    EXPECT_THAT(html, HasSubstr("<td class=\"number\">—</td>"));
+    EXPECT_THAT(html, HasSubstr("<td>dipole</td>"));
+}
+
+TEST(ReportHtml, TextIsEscapedAndComplete) {
+    const std::string html = reportHtml(example());
+    for (const char* part : {"<h1>skin1 &lt;&amp; co&gt;</h1>", "The summary.", "<h2>Errors</h2>", "One &amp; two.",
+                             "<caption>In numbers</caption>", "<dt>seed</dt><dd>1</dd>", "prefers-color-scheme: dark"})
+        EXPECT_THAT(html, HasSubstr(part));
+}
+
+TEST(ReportHtml, FiguresShareNoIds) { EXPECT_FALSE(std::regex_search(reportHtml(example()), std::regex(" id="))); }
+
+TEST(ReportHtml, SameReportSameBytes) { EXPECT_EQ(reportHtml(example()), reportHtml(example())); }
+
+}  // namespace
+}  // namespace searchlight

@@ -1,0 +1,142 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "gl_test_model.h"
+#include "scene/materials.h"
+
+namespace searchlight {
+namespace {
+
+// Every setting of the model's choice and bool parameters, the others at their defaults.
+std::vector<ParamValues> settings(const Model& model) {
+    std::vector<ParamValues> all(1);
+    for (const Param& param : model.file.parameters) {
+        std::vector<ParamValue> options;
+        if (param.type == ParamType::choice) options.assign(param.choices.begin(), param.choices.end());
+        if (param.type == ParamType::toggle) options = {true, false};
+        if (options.empty()) continue;
+        std::vector<ParamValues> more;
+        for (const ParamValues& values : all)
+            for (const ParamValue& option : options) (more.emplace_back(values))[param.name] = option;
+        all = std::move(more);
+    }
+    return all;
+}
+
+std::string settingText(const ParamValues& values) {
+    std::string text;
+    for (const auto& [name, value] : values) text += fmt::format(" {}={}", name, valueText(value));
+    return text;
+}
+
+// As GL gets it: at exponents of 70 the rounding of the input alone would show.
+double rounded(double value) { return static_cast<float>(value); }
+Rgb rounded(const Rgb& value) { return {rounded(value.r), rounded(value.g), rounded(value.b)}; }
+
+// From 1e-3 to 30 mean free paths of every channel, downstream, upstream and aside of the beam.
+std::vector<Query> queriesFor(const Medium& medium, double angle_deg) {
+    const double angle = angle_deg * M_PI / 180;
+    const Rgb sigma_t = medium.sigmaT(), sigma_tp = medium.sigmaTp();
+    const double nearest = 1e-3 / std::max({sigma_t.r, sigma_t.g, sigma_t.b});
+    const double farthest = 30 / std::min({sigma_tp.r, sigma_tp.g, sigma_tp.b});
+    std::vector<Query> queries;
+    for (const double r : ratioSteps(nearest, farthest, 120)) {
+        for (const double azimuth_deg : {0.0, 65.0, 90.0, 180.0}) {
+            const double azimuth = azimuth_deg * M_PI / 180;
+            Query query = queryAt(0);
+            query.xo = {rounded(r * std::cos(azimuth)), rounded(r * std::sin(azimuth)), 0};
+            query.wi = {rounded(-std::sin(angle)), 0, rounded(std::cos(angle))};
+            queries.push_back(query);
+        }
+    }
+    return queries;
+}
+
+struct Case {
+    std::string material;
+    Medium medium;
+};
+
+std::vector<Case> cases() {
+    std::vector<Case> all;
+    for (const char* id : {"jensen2001:marble", "jensen2001:skin1", "jensen2001:ketchup"})
+        all.push_back({id, findMaterial(id).medium});
+    all.push_back({"g = 0.9", {{0.01, 0.1, 0.001}, {10, 20, 5}, {0.9, 0.9, 0.9}, 1.33}});
+    all.push_back({"matched", {{0.01, 0.1, 1}, {1, 1, 1}, {0, 0, 0.5}, 1}});
+    for (auto& [name, medium] : all)
+        medium = {rounded(medium.sigma_a), rounded(medium.sigma_s), rounded(medium.g), rounded(medium.eta)};
+    return all;
+}
+
+class GlNativeAgreement : public testing::TestWithParam<std::string> {};
+
+std::vector<std::string> shippedIds() {
+    std::vector<std::string> ids;
+    for (const Model& model : shippedModels()) ids.push_back(model.id);
+    return ids;
+}
+
+TEST_P(GlNativeAgreement, IsWithin1em5From1em3To30MeanFreePaths) {
+    const Model model = loadModel(GetParam());
+    ASSERT_TRUE(hasNativeEvaluator(model));
+    gl::Context context;
+    const auto on_gl = makeGlEvaluator(model, context);
+    const auto native = makeNativeEvaluator(model, Precision::double_);
+    for (const ParamValues& parameters : settings(model)) {
+        for (const Case& test : cases()) {
+            on_gl->set(test.medium, parameters);
+            native->set(test.medium, parameters);
+            for (const double angle_deg : {0.0, 60.0}) {
+                const std::vector<Query> queries = queriesFor(test.medium, angle_deg);
+                std::vector<Rgb> values(queries.size()), expected(queries.size());
+                on_gl->evaluate(queries, values);
+                native->evaluate(queries, expected);
+                double worst = 0;
+                std::string where;
+                for (std::size_t i = 0; i < queries.size(); ++i) {
+                    for (int c = 0; c < 3; ++c) {
+                        if (length(queries[i].xo) * test.medium.sigmaTp()[c] > 30) continue;
+                        // Below 1e-36 float has no full digits left.
+                        if (std::abs(expected[i][c]) < 1e-36 && std::abs(values[i][c]) < 1e-36) continue;
+                        const double error = std::abs(values[i][c] / expected[i][c] - 1);
+                        if (error <= worst) continue;
+                        worst = error;
+                        where = fmt::format("x = ({}, {}) mm, channel {}: GL {}, double {}", queries[i].xo.x,
+                                            queries[i].xo.y, c, values[i][c], expected[i][c]);
+                    }
+                }
+                EXPECT_LE(worst, 1e-5) << test.material << settingText(parameters) << ", " << angle_deg << " deg, "
+                                       << where;
+            }
+        }
+    }
+}
+
+TEST_P(GlNativeAgreement, OfDiffuseReflectanceIsWithin1em5) {
+    const Model model = loadModel(GetParam());
+    if (!model.file.diffuse_reflectance.present()) GTEST_SKIP() << "the model has no DiffuseReflectance";
+    gl::Context context;
+    const auto on_gl = makeGlEvaluator(model, context);
+    const auto native = makeNativeEvaluator(model, Precision::double_);
+    for (const ParamValues& parameters : settings(model)) {
+        for (const Case& test : cases()) {
+            on_gl->set(test.medium, parameters);
+            native->set(test.medium, parameters);
+            for (const double a : {0.05, 0.3, 0.7, 0.95, 0.999, 1.0}) {
+                const Rgb value = on_gl->diffuseReflectance({a, a, a});
+                const Rgb expected = native->diffuseReflectance({a, a, a});
+                for (int c = 0; c < 3; ++c)
+                    EXPECT_NEAR(value[c], expected[c], 1e-5 * expected[c])
+                        << test.material << settingText(parameters) << ", alpha' = " << a;
+            }
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Shipped, GlNativeAgreement, testing::ValuesIn(shippedIds()),
+                         [](const auto& id) { return id.param; });
+
+}  // namespace
+}  // namespace searchlight
