@@ -44,6 +44,7 @@ function(searchlight_tests folder)
     set(target test_${folder}_${label})
     add_executable(${target} ${${label}})
     target_link_libraries(${target} PRIVATE ${ARG_LINK} fmt::fmt GTest::gmock GTest::gtest_main)
+    target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
     target_compile_definitions(${target} PRIVATE
       SEARCHLIGHT_SOURCE_DIR="${PROJECT_SOURCE_DIR}" SEARCHLIGHT_BINARY_DIR="${PROJECT_BINARY_DIR}")
     target_precompile_headers(${target} PRIVATE <gtest/gtest.h> <gmock/gmock.h> <vector> <string>)

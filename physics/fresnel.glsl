@@ -53,30 +53,33 @@ float fresnelMoment(int k, float eta) {
     return 0.5 * t_max * sum + total_reflection;
 }
 
-// The same moments by the polynomials of [dEonIrving2011], which fit 2 C_1 and 3 C_2 to about 2e-3 and 5e-3. They do
-// not vanish at eta = 1, where there is no reflection; there 0 is returned (docs/errata.md).
+// The same moments by the polynomials of [dEonIrving2011], which fit 2 C_1 and 3 C_2 to about 2e-3 and 5e-3 for eta in
+// [0.4, 2.5] and nothing beyond it. They do not vanish at eta = 1, where there is no reflection; there 0 is returned. Those
+// for eta > 1 are rearranged about 1.4: as printed, terms of up to 2000 cancel, which single precision does not bear.
 float fresnelMomentPublished(int k, float eta) {
     if (eta == 1.0) return 0.0;
     float e = eta;
+    float x = eta - 1.4;
     if (k == 1) {
         return 0.5 * (e < 1.0 ? 0.919317 + e * (-3.4793 + e * (6.75335 + e * (-7.80989 + e * (4.98554 - e * 1.36881))))
-                              : -9.23372 + e * (22.2272 + e * (-20.9292 + e * (10.2291 + e * (-2.54396 + e * 0.254913)))));
+                              : 0.52988495712 + x * (0.746411944 + x * (-0.88913688 + x * (0.9792188 +
+                                                x * (-0.759569 + x * 0.254913)))));
     }
     float series = e < 1.0 ? 0.828421 + e * (-2.62051 + e * (3.36231 + e * (-1.95284 + e * (0.236494 + e * 0.145787))))
-                           : -1641.1 + (1376.53 + (-656.175 + 135.926 / e) / e) / e +
-                                 e * (1213.67 + e * (-568.556 + e * (164.798 + e * (-27.0181 + e * 1.91826))));
+                           : (1.0601361913856 + x * (4.530555455232 + x * (4.72717934208 + x * (0.8672954944 +
+                              x * (-0.13599088 + x * (-1.55029136 + x * (5.2947288 + x * (-5.533588 +
+                              x * 1.91826)))))))) / (e * e * e);
     return series / 3.0;
 }
 
-// 2 C_1, the reflectance for diffuse light from inside, by the fits of [EganHilgeman1979]; 0 at eta = 1.
+// 2 C_1, the reflectance for diffuse light, by the fits of [EganHilgeman1979]: to 2e-3 for eta in [0.5, 2]; 0 at eta = 1.
 float fresnelDiffusePublished(float eta) {
     if (eta == 1.0) return 0.0;
     return eta > 1.0 ? -1.440 / (eta * eta) + 0.710 / eta + 0.668 + 0.0636 * eta
                      : -0.4399 + (0.7099 + (-0.3319 + 0.0636 / eta) / eta) / eta;
 }
 
-// Weights of fluence and of flux in the exitance, from the moments C_1 and C_2: [dEonIrving2011] Eqs. 12 and 13,
-// [Frisvad2014] Eqs. 30 and 31.
+// C_phi and C_E, the weights of fluence and flux in the exitance, from C_1 and C_2: [Frisvad2014] Eqs. 30 and 31.
 float fluenceWeight(float c1) { return 0.25 * (1.0 - 2.0 * c1); }
 float fluxWeight(float c2) { return 0.5 * (1.0 - 3.0 * c2); }
 

@@ -58,8 +58,10 @@ constexpr MaterialFlag material_flags[] = {
     {"ld", "diffuse mean free path [mm]"},
 };
 
-void addOption(CLI::App& app, const std::string& name, std::vector<std::string>& into, const std::string& doc) {
+void addOption(CLI::App& app, const std::string& name, std::vector<std::string>& into, const std::string& doc,
+               const std::string& group = "Options") {
     app.add_option(name, into, doc)
+        ->group(group)
         ->type_name("")
         ->type_size(1)
         ->expected(1)
@@ -76,8 +78,9 @@ CLI::App& subcommand(CLI::App& root, const Command& command) {
         const bool last = i + 1 == words.size();
         const std::vector<CLI::App*> same = app->get_subcommands([&](const CLI::App* sub) { return sub->get_name() == word; });
         CLI::App* next = same.empty() ? nullptr : same.front();
-        if (!next) next = app->add_subcommand(word, last ? std::string(command.summary) : "Several kinds: see --help");
+        if (!next) next = app->add_subcommand(word, last ? std::string(command.summary) : "One of");
         next->allow_extras();
+        if (!last) next->description(next->get_description() + (next->get_subcommands(nullptr).empty() ? ": " : ", ") + std::string(words[i + 1]));
         app = next;
     }
     return *app;
@@ -95,8 +98,8 @@ void declare(CLI::App& root, Typed& typed, bool& json, bool& print_job) {
     }
     if (command.uses_material) {
         for (const MaterialFlag& flag : material_flags)
-            addOption(app, flagOf(flag.name), typed.material[flag.name], flag.doc);
-        app.add_option("--scene", typed.scene, "a scene file, whose material is used")->type_name("");
+            addOption(app, flagOf(flag.name), typed.material[flag.name], flag.doc, "Material");
+        app.add_option("--scene", typed.scene, "a scene file, whose material is used")->type_name("")->group("Material");
     }
     if (command.uses_seed) app.add_option("--seed", typed.seed, "of the random walks (default 1)")->type_name("");
     if (!command.output.empty())
@@ -228,6 +231,9 @@ Arguments parseArguments(int argc, char** argv) {
     } catch (const CLI::CallForVersion&) {
         arguments.text = fmt::format("searchlight {}\n", version());
         return arguments;
+    } catch (const CLI::ArgumentMismatch& error) {
+        const std::string_view what = error.what();
+        throw usageError(fmt::format("{} needs a value", what.substr(0, what.find(':'))), "see --help");
     } catch (const CLI::ParseError& error) {
         throw usageError(error.what(), "see --help");
     }
@@ -249,7 +255,12 @@ Arguments parseArguments(int argc, char** argv) {
             arguments.job = jobOf(typed);
             return arguments;
         }
-    arguments.text = app->help();  // no command, or one of several kinds
+    if (app != &root) {
+        std::vector<std::string> kinds;
+        for (const CLI::App* kind : app->get_subcommands([](const CLI::App*) { return true; })) kinds.push_back(kind->get_name());
+        throw usageError(fmt::format("{} of what?", app->get_name()), "valid: " + join(kinds, ", "));
+    }
+    arguments.text = root.help();
     return arguments;
 }
 

@@ -3,6 +3,8 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
+
 namespace searchlight {
 
 int hardwareThreads() { return tbb::this_task_arena::max_concurrency(); }
@@ -12,7 +14,7 @@ void parallelFor(std::size_t count, int threads, const std::function<void(std::s
     if (threads <= 0)
         loop();
     else
-        tbb::task_arena(threads).execute(loop);
+        tbb::task_arena(std::min(threads, hardwareThreads())).execute(loop);
 }
 
 }  // namespace searchlight

@@ -150,11 +150,12 @@ std::string rangeText(const Param& param) {
         return kind + (param.unit.empty() ? "" : " in " + param.unit);
     }
     std::string range;
-    const std::string_view lower = param.exclusive ? "above" : "from";
     if (param.max >= 1e30)
         range = fmt::format(" {} {}", param.exclusive ? "above" : "of at least", param.min);
+    else if (param.exclusive)
+        range = fmt::format(" above {} and up to {:.12g}", param.min, param.max);
     else
-        range = fmt::format(" {} {} to {}", lower, param.min, param.max);
+        range = fmt::format(" from {} to {:.12g}", param.min, param.max);
     return kind + range + (param.unit.empty() ? "" : " " + param.unit);
 }
 

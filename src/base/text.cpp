@@ -69,7 +69,12 @@ std::optional<double> parseNumber(std::string_view text) {
 
 std::string numberText(double value) { return fmt::format("{}", value); }
 
-std::string prettyNumber(double value, int digits) { return fmt::format("{:.{}g}", value, digits); }
+std::string prettyNumber(double value, int digits) {
+    const double size = std::abs(value);
+    // The general format turns to exponents as soon as the digits do not reach the point.
+    if (size >= std::pow(10.0, digits) && size < 1e6) return fmt::format("{:.0f}", value);
+    return fmt::format("{:.{}g}", value, digits);
+}
 
 std::string countText(double count) {
     if (count < 1e6) return fmt::format("{:.0f}", count);

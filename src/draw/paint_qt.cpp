@@ -29,15 +29,20 @@ constexpr double points_per_px = 0.75;  // px are 1/96 inch
 // DISPLAY is set: a display that has gone away would end the process. It stays until the process ends, because Qt may
 // be started only once.
 void ensureApplication() {
-    if (QCoreApplication::instance()) return;
-    static int argc = 3;
-    static char name[] = "searchlight", option[] = "-platform", platform[] = "offscreen";
-    static char* argv[] = {name, option, platform, nullptr};
-    // Qt's remarks about the session (no XDG_RUNTIME_DIR...) are not the user's concern.
-    const QtMessageHandler speaking =
-        qInstallMessageHandler([](QtMsgType, const QMessageLogContext&, const QString&) {});
-    new QGuiApplication(argc, argv);
-    qInstallMessageHandler(speaking);
+    // Once, whichever thread draws first.
+    static const bool ensured = [] {
+        if (QCoreApplication::instance()) return true;
+        static int argc = 3;
+        static char name[] = "searchlight", option[] = "-platform", platform[] = "offscreen";
+        static char* argv[] = {name, option, platform, nullptr};
+        // Qt's remarks about the session (no XDG_RUNTIME_DIR...) are not the user's concern.
+        const QtMessageHandler speaking =
+            qInstallMessageHandler([](QtMsgType, const QMessageLogContext&, const QString&) {});
+        new QGuiApplication(argc, argv);
+        qInstallMessageHandler(speaking);
+        return true;
+    }();
+    (void)ensured;
 }
 
 QString fromUtf8(std::string_view text) { return QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size())); }

@@ -16,8 +16,8 @@ Buffer::Buffer(Context& context, std::size_t bytes) : context_(context) {
 }
 
 Buffer::~Buffer() {
-    context_.makeCurrent();
-    glDeleteBuffers(1, &handle_);
+    // A context that was lost has taken it along.
+    if (context_.tryMakeCurrent()) glDeleteBuffers(1, &handle_);
 }
 
 void Buffer::reserve(std::size_t bytes) {

@@ -92,9 +92,13 @@ Context::~Context() {
     eglDestroyContext(display_, context_);
 }
 
+bool Context::tryMakeCurrent() noexcept {
+    return eglGetCurrentContext() == context_ ||
+           eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) == EGL_TRUE;
+}
+
 void Context::makeCurrent() {
-    if (eglGetCurrentContext() == context_) return;
-    if (!eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_))
+    if (!tryMakeCurrent())
         throw deviceError("the OpenGL context could not be made current", "another thread holds it, or it was lost");
 }
 

@@ -32,6 +32,9 @@ public:
     /// thread holds it.
     void makeCurrent();
 
+    /// The same without the Error: false when it did not work.
+    bool tryMakeCurrent() noexcept;
+
     /// Gives the context up on this thread, so that another may take it.
     void release();
 

@@ -61,8 +61,8 @@ Program::Program(Context& context, const Source& source) : context_(context) {
 }
 
 Program::~Program() {
-    context_.makeCurrent();
-    glDeleteProgram(handle_);
+    // A context that was lost has taken it along.
+    if (context_.tryMakeCurrent()) glDeleteProgram(handle_);
 }
 
 void Program::set(const char* uniform, int value) {

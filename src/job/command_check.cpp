@@ -32,10 +32,14 @@ JobResult runCheck(const Job& job, Engine& engine, Observer& observer) {
     document["checks"] = Json::array();
     result.text = fmt::format("{} ({})\n", model.file.title, options.text("model"));
     std::array<int, marks.size()> counts{};
-    for (const CheckResult& check : checks) {
+    const std::vector<CheckInfo> list = checkList();
+    for (std::size_t i = 0; i < checks.size(); ++i) {
+        const CheckResult& check = checks[i];
         const auto outcome = static_cast<std::size_t>(check.outcome);
-        document["checks"].push_back(
-            {{"name", check.name}, {"outcome", outcomeName(check.outcome)}, {"detail", check.detail}});
+        document["checks"].push_back({{"name", check.name},
+                                      {"asks", list[i].asks},
+                                      {"outcome", outcomeName(check.outcome)},
+                                      {"detail", check.detail}});
         result.text += fmt::format("  {}  {:<15} {}\n", marks[outcome], check.name, check.detail);
         ++counts[outcome];
     }

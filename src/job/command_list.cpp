@@ -22,6 +22,7 @@ JobResult runModels(const Job& job, Engine&, Observer&) {
         for (const Param& param : file.parameters) json["parameters"].push_back(paramJson(param));
         json["citation"] = file.citation;
         json["validity"] = file.validity;
+        json["notes"] = file.notes;
         document["models"].push_back(std::move(json));
 
         result.text += fmt::format("{:<22} {}\n", model.id, file.title);

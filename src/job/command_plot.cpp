@@ -74,7 +74,6 @@ PencilData pencilData(const Job& job, Engine& engine, Observer& observer, bool n
     data.options.x_scale = scaleNamed(options.text("x_scale"));
     data.options.angle_deg = options.number("angle_deg");
     data.options.material = subject.name;
-    data.options.solo = options.text("solo");
     if (data.options.channel != PlotChannel::luminance && medium.channels == 3 &&
         !medium.scatters(static_cast<int>(data.options.channel)))
         throw inputError(fmt::format("{} does not scatter in channel {}: there is nothing to plot", subject.name,
@@ -87,20 +86,21 @@ PencilData pencilData(const Job& job, Engine& engine, Observer& observer, bool n
     reference.seed = job.seed;
     reference.angle_deg = data.options.angle_deg;
     reference.threads = static_cast<int>(options.number("threads"));
+    const bool all_channels = data.options.channel == PlotChannel::luminance || !options.text("solo").empty();
     for (int c = 0; c < Rgb::channels; ++c)
-        reference.only[c] = data.options.channel == PlotChannel::luminance || c == static_cast<int>(data.options.channel);
+        reference.only[c] = all_channels || c == static_cast<int>(data.options.channel);
     double r_max = options.number("radii_max");
     reference.edges_mm = plotEdges(medium, r_max, static_cast<int>(options.number("bins")));
     r_max = reference.edges_mm.back();
 
-    std::vector<std::string> names = options.names("models");
-    if (!data.options.solo.empty()) names = {data.options.solo};
-    data.options.solo.clear();
-    std::vector<LoadedModel> loaded = loadModels(names, options.text("backend"), subject, engine);
+    const bool solo = !options.text("solo").empty();
+    std::vector<LoadedModel> loaded = loadModels(solo ? std::vector{options.text("solo")} : options.names("models"),
+                                                 options.text("backend"), subject, engine);
     if (walks > 0 || needs_reference) data.reference = runReference(medium, reference, observer).curve();
     const std::vector<double> edges = data.reference ? reference.edges_mm : std::vector<double>{};
     for (LoadedModel& model : loaded)
         data.models.push_back(modelCurve(model, data.options.angle_deg, curveRadii(r_max), edges));
+    if (solo) data.options.solo = data.models.front().label;
     return data;
 }
 

@@ -32,8 +32,8 @@ Param angle() {
 Param threads() {
     return {.name = "threads", .type = ParamType::integer, .min = 0, .max = 4096, .value = 0.0, .doc = "0: all"};
 }
-Param walks(double value, std::string name = "walks", std::string doc = "random walks per channel") {
-    return {.name = std::move(name), .type = ParamType::integer, .min = 0, .max = 1e15, .value = value,
+Param walks(double value, std::string name = "walks", std::string doc = "random walks per channel", double min = 1) {
+    return {.name = std::move(name), .type = ParamType::integer, .min = min, .max = 1e15, .value = value,
             .doc = std::move(doc)};
 }
 Param radiiMax() {
@@ -52,11 +52,11 @@ Param scale(std::string name, std::string value) {
             .choices = {"lin", "log", "sqrt"}, .doc = "scale of the axis"};
 }
 Param solo() {
-    return {.name = "solo", .type = ParamType::text, .value = std::string(), .doc = "show this model alone"};
+    return {.name = "solo", .type = ParamType::text, .value = std::string(), .doc = "show this model alone, its channels apart"};
 }
 
 std::vector<Command> makeCommands() {
-    const Param reference_walks = walks(0, "reference_walks", "random walks of the reference per channel; 0: none");
+    const Param reference_walks = walks(0, "reference_walks", "random walks of the reference per channel; 0: none", 0);
     return {
         {.name = "models", .summary = "List the models, with their parameters",
          .example = "searchlight models", .run = runModels},
@@ -112,7 +112,7 @@ std::vector<Command> makeCommands() {
          .options = {models(),
                      {.name = "eta", .min = .25, .max = 4, .value = 1.3, .doc = "refractive index, inside over outside"},
                      {.name = "g", .min = -.99, .max = .99, .value = 0.0, .doc = "mean cosine of the phase function"},
-                     walks(0, "reference_walks", "random walks per point of the reference; 0: none"), backend()},
+                     walks(0, "reference_walks", "random walks per point of the reference; 0: none", 0), backend()},
          .uses_seed = true, .output = "figure: .svg, .png, .pdf or .csv", .run = runPlotAlbedo},
         {.name = "check", .summary = "Check a model file: does it compile, is it physical, is it portable",
          .example = "searchlight check models/dipole.bssrdf",
@@ -121,7 +121,7 @@ std::vector<Command> makeCommands() {
          .positional = "model", .run = runCheck},
         {.name = "report", .summary = "Write a page: every model beside the reference, on a material",
          .example = "searchlight report --material marble -o out/",
-         .options = {models(), walks(4e6), walks(2e5, "albedo_walks", "random walks per point of the albedo figure"),
+         .options = {models(), walks(4e6), walks(2e5, "albedo_walks", "random walks per point of the albedo figure; 0: none", 0),
                      angle(), radiiMax(), bins(64), backend(), threads()},
          .uses_material = true, .uses_seed = true, .output = "folder of the page, its figures and its numbers",
          .run = runReport},

@@ -34,6 +34,8 @@ bool isAssignment(std::string_view text) {
            text == "--";
 }
 
+bool isOpening(std::string_view text) { return text == "(" || text == "[" || text == "{"; }
+
 // Component indices of ".xyz"; empty when it is no swizzle.
 std::vector<int> swizzle(std::string_view text) {
     for (const std::string_view set : {"xyzw", "rgba", "stpq"}) {
@@ -137,11 +139,12 @@ std::string CppWriter::expression(std::span<const Token> range) {
 
 // After "name =".
 void CppWriter::value(std::span<const Token> range) {
+    for (const Token& token : range)
+        if (token.text == "{") throw notPortable(token, "a list in { }", "write TYPE[](a, b) or a constructor");
     end_offset_ = 0;
     in_value_ = true;
     tokens(range);
     in_value_ = false;
-    text_ += ";";
 }
 
 std::string CppWriter::typeText(const Token& type, bool is_array, std::span<const Token> array,
@@ -158,21 +161,24 @@ std::string CppWriter::typeText(const Token& type, bool is_array, std::span<cons
     return fmt::format("glsl::Array<{}, {}>", cpp, size);
 }
 
-void CppWriter::declarator(std::string_view prefix, const Token& type, const Declarator& declarator, bool with_value) {
-    for (const Token& token : declarator.value)
-        if (token.text == declarator.name.text)
+// "TYPE name = value" without the semicolon. `lead` goes before the type; without `with_type`, in its place.
+void CppWriter::declarator(std::string_view lead, const Token& type, const Declarator& item, bool with_type,
+                           bool with_value) {
+    for (const Token& token : item.value)
+        if (token.text == item.name.text)
             throw notPortable(token, fmt::format("'{}' in its own initial value", token.text),
                               "GLSL means the outer variable, C++ the new one: use another name");
-    const std::string full_type = typeText(type, declarator.is_array, declarator.array, declarator.value);
-    place(type.line == declarator.name.line ? type : declarator.name);
-    if (text_.back() != ' ') text_ += ' ';
-    text_ += fmt::format("{}{} {}", prefix, full_type, cppName(declarator.name.text));
-    end_offset_ = declarator.name.offset + declarator.name.text.size();
-    if (declarator.value.empty() || !with_value) {
-        text_ += "{};";
+    const std::string full_type = typeText(type, item.is_array, item.array, item.value);
+    place(with_type && type.line == item.name.line ? type : item.name);
+    if (text_.back() != ' ' && text_.back() != '(' && with_type) text_ += ' ';
+    text_ += with_type ? fmt::format("{}{} ", lead, full_type) : lead;
+    text_ += cppName(item.name.text);
+    end_offset_ = item.name.offset + item.name.text.size();
+    if (item.value.empty() || !with_value) {
+        text_ += "{}";
     } else {
         text_ += " =";
-        value(declarator.value);
+        value(item.value);
     }
 }
 
@@ -181,14 +187,19 @@ void CppWriter::constants(const Global& global, bool as_static) {
         if (item.value.empty())
             throw notPortable(item.name, fmt::format("constant '{}' without value", item.name.text));
         declarator(as_static ? "static constexpr " : "", global.type, item);
+        text_ += ";";
     }
 }
 
-void CppWriter::stateMember(const Global& global, const Declarator& item) { declarator("", global.type, item, false); }
+void CppWriter::stateMember(const Global& global, const Declarator& item) {
+    declarator("", global.type, item, true, false);
+    text_ += ";";
+}
 
 void CppWriter::assignment(const Declarator& item) {
     put(item.name, cppName(item.name.text) + " =");
     value(item.value);
+    text_ += ";";
 }
 
 void CppWriter::function(const Function& function, std::string_view before, std::string_view after,
@@ -277,14 +288,15 @@ std::size_t CppWriter::type(std::span<const Token> range, std::size_t i) {
     return i;
 }
 
-// range[i] is the first name. Each declarator becomes a statement of its own, except in for (...).
+// range[i] is the first name. Each declarator becomes a statement of its own, except in for (...). Stops at what ends
+// the declaration.
 std::size_t CppWriter::declaration(std::span<const Token> range, std::size_t i, const Token& type,
                                    std::span<const Token> type_array, bool is_array) {
     if (in_value_) throw notPortable(type, "a declaration inside an expression");
-    const std::string prefix = const_ ? "const " : "";
+    const std::string lead = const_ ? "const " : "";
     const_ = false;
     const bool in_parentheses = parentheses_ > 0;
-    for (;;) {
+    for (bool first = true;; first = false) {
         Declarator item{range[i], type_array, is_array, {}};
         if (item.name.kind != TokenKind::identifier) throw notPortable(item.name, "a declaration without a name");
         ++i;
@@ -295,17 +307,18 @@ std::size_t CppWriter::declaration(std::span<const Token> range, std::size_t i, 
             i = close + 1;
         }
         if (i < range.size() && range[i].text == "=") {
-            const std::size_t first = ++i;
+            const std::size_t begin = ++i;
             while (i < range.size() && range[i].text != "," && range[i].text != ";" && range[i].text != ")")
-                i = range[i].text == "(" || range[i].text == "[" ? closingBracket(range, i) + 1 : i + 1;
-            item.value = range.subspan(first, i - first);
+                i = isOpening(range[i].text) ? closingBracket(range, i) + 1 : i + 1;
+            item.value = range.subspan(begin, i - begin);
         }
-        declarator(prefix, type, item);
-        if (i >= range.size()) return i;
-        if (range[i].text == ";") return i + 1;
-        if (range[i].text != "," || in_parentheses)
-            throw notPortable(range[i], in_parentheses ? "this declaration inside ( )" : "this declaration",
-                              "expected TYPE NAME = VALUE;");
+        if (in_parentheses && item.is_array) throw notPortable(item.name, "an array declared inside ( )");
+        const bool continues = !first && in_parentheses;
+        declarator(continues ? ", " : lead, type, item, !continues);
+        const bool ends = i >= range.size() || range[i].text == ";" || (in_parentheses && range[i].text == ")");
+        if (ends) return i;
+        if (range[i].text != ",") throw notPortable(range[i], "this declaration", "expected TYPE NAME = VALUE;");
+        if (!in_parentheses) text_ += ";";
         if (++i >= range.size()) return i;
     }
 }

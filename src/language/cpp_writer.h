@@ -60,7 +60,8 @@ private:
                          std::span<const Token> value = {});
     std::string expression(std::span<const Token> range);
     void value(std::span<const Token> range);
-    void declarator(std::string_view prefix, const Token& type, const Declarator& declarator, bool with_value = true);
+    void declarator(std::string_view lead, const Token& type, const Declarator& item, bool with_type = true,
+                    bool with_value = true);
 
     const std::set<std::string, std::less<>>& functions_;
     std::set<std::string, std::less<>> used_;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <map>
 #include <optional>
@@ -12,12 +11,11 @@
 #include "base/error.h"
 #include "language/glsl_names.h"
 #include "language/outline.h"
+#include "language/state_writes.h"
 
 namespace searchlight {
 
 namespace {
-
-using Names = std::set<std::string_view>;
 
 Error errorAt(const Token& token, std::string message, std::string hint = {}) {
     return inputError(std::move(message), std::move(hint)).at({}, token.line, token.column);
@@ -103,99 +101,13 @@ private:
     int depth_ = 0;
 };
 
-bool isAssignment(const Token& token) {
-    constexpr std::array<std::string_view, 13> operators = {
-        "=", "+=", "-=", "*=", "/=", "%=", "&=", "|=", "^=", "<<=", ">>=", "++", "--"};
-    return token.kind == TokenKind::punctuation && std::ranges::find(operators, token.text) != operators.end();
-}
-
-// Walks a function body and rejects assignments to State, minding locals and parameters that hide it.
-class StateWrites {
-public:
-    StateWrites(const Names& state, const Function& function) : state_(state), function_(function) {}
-
-    void check() {
-        scopes_.emplace_back();
-        for (const Function::Parameter& parameter : function_.parameters) declare(parameter.declarator.name);
-        const std::span<const Token> body = function_.body;
-        for (at_ = 0; at_ < body.size(); ++at_) {
-            const Token& token = body[at_];
-            if (token.text == "{") scopes_.emplace_back();
-            if (token.text == "}") scopes_.pop_back();
-            if (token.kind != TokenKind::identifier) {
-                followDeclaration(token);
-                continue;
-            }
-            if (startsDeclarator()) {
-                declare(token);
-                in_declaration_ = true;
-                depth_ = 0;
-            } else if (state_.contains(token.text) && !hidden(token.text) && isWritten()) {
-                throw errorAt(token, fmt::format("{} writes '{}'", function_.name.text, token.text),
-                              "globals of the initializer are the model's state: only init() may change them");
-            }
-        }
-    }
-
-private:
-    // Two names in a row, or type[n] name, stand only where something is declared.
-    bool startsDeclarator() const {
-        if (at_ == 0) return false;
-        const std::span<const Token> body = function_.body;
-        const Token& before = body[at_ - 1];
-        if (in_declaration_ && depth_ == 0 && before.text == ",") return true;
-        if (before.kind == TokenKind::identifier)
-            return isGlslValueType(before.text) || !isGlslKeyword(before.text) || before.text == "const";
-        return before.text == "]" && afterArrayType();
-    }
-
-    bool afterArrayType() const {
-        std::size_t i = at_ - 1;
-        while (i > 0 && function_.body[i].text != "[") --i;
-        return i > 0 && isGlslValueType(function_.body[i - 1].text);
-    }
-
-    void followDeclaration(const Token& token) {
-        if (token.text == "(" || token.text == "[" || token.text == "{") ++depth_;
-        if (token.text == ")" || token.text == "]" || token.text == "}") --depth_;
-        if (token.text == ";" || depth_ < 0) in_declaration_ = false;
-    }
-
-    bool isWritten() const {
-        const std::span<const Token> body = function_.body;
-        if (body[at_ - 1].text == "++" || body[at_ - 1].text == "--") return true;
-        std::size_t after = at_ + 1;
-        while (after + 1 < body.size()) {
-            if (body[after].text == "[")
-                after = closingBracket(body, after) + 1;
-            else if (body[after].text == ".")
-                after += 2;
-            else
-                break;
-        }
-        return after < body.size() && isAssignment(body[after]);
-    }
-
-    void declare(const Token& name) { scopes_.back().insert(name.text); }
-    bool hidden(std::string_view name) const {
-        return std::ranges::any_of(scopes_, [&](const Names& names) { return names.contains(name); });
-    }
-
-    const Names& state_;
-    const Function& function_;
-    std::size_t at_ = 0;
-    std::vector<Names> scopes_;
-    bool in_declaration_ = false;
-    int depth_ = 0;
-};
-
 class Splitter {
 public:
     explicit Splitter(const BssrdfFile& file) : file_(file) {}
 
     Initializer run() {
         if (file_.initializer.present()) split();
-        Names names;
+        std::set<std::string_view> names;
         for (const StateVariable& variable : result_.state) names.insert(variable.name);
         for (const BssrdfSection* section : {&file_.initializer, &file_.diffuse_reflectance, &file_.shader})
             checkWrites(*section, names);
@@ -286,12 +198,12 @@ private:
         }
     }
 
-    static void checkWrites(const BssrdfSection& section, const Names& state) {
+    static void checkWrites(const BssrdfSection& section, const std::set<std::string_view>& state) {
         if (!section.present()) return;
         const std::vector<Token> tokens = tokenize(section.text, section.first_line);
         for (const Function& function : outline(tokens).functions)
             if (!function.body.empty() && !(function.name.text == "init" && function.parameters.empty()))
-                StateWrites(state, function).check();
+                checkStateWrites(function, state);
     }
 
     const BssrdfFile& file_;

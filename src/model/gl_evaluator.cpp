@@ -22,8 +22,9 @@ constexpr std::size_t slice = 16384;
 
 constexpr std::size_t floats_per_query = 18;
 
-// llvmpipe ends all loops of an invocation after 65,535 iterations in sum (LP_MAX_TGSI_LOOP_ITERATIONS), those of
-// physics/ included; what the model may take of them leaves room.
+// llvmpipe ends all loops of an invocation after 65,535 iterations in sum (LP_MAX_TGSI_LOOP_ITERATIONS) and says
+// nothing. An invocation there is a vector of queries: where they run different loops, the driver counts more than each
+// of them.
 LoopBudget loopBudget(const gl::ContextInfo& device) {
     const bool is_llvmpipe = device.renderer.find("llvmpipe") != std::string::npos;
     return is_llvmpipe ? LoopBudget{60'000, true} : LoopBudget{};

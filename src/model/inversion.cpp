@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <functional>
 
 #include "base/error.h"
@@ -84,7 +86,7 @@ struct Search {
     }
 };
 
-// sigma_t' from ld = 1/sigma_tr, [JensenBuhler2002] section 4; with Grosjean's D sigma_tr is smaller by sqrt(2 -
+// sigma_t' from ld = 1/sigma_tr, [Bitterli2013] Eq. 3.3; with Grosjean's D sigma_tr is smaller by sqrt(2 -
 // alpha').
 double reducedExtinction(double s, double ld_mm, bool grosjean) {
     return (grosjean ? std::sqrt(1 + s * s) : 1) / (ld_mm * std::sqrt(3.0) * s);

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <optional>
+
 #include "base/csv.h"
 #include "base/error.h"
 #include "base/text.h"

@@ -26,7 +26,7 @@ double polynomialSlope(std::span<const double> x, std::span<const Rgb> y, std::s
     return slope;
 }
 
-// Fourth-order slopes, limited so that the cubic stays monotone between samples: [FritschCarlson1980] section 4.
+// Fourth-order slopes, limited so that the cubic stays monotone between samples: [FritschCarlson1980].
 std::vector<Rgb> monotoneSlopes(std::span<const double> x, std::span<const Rgb> y) {
     const std::size_t n = x.size();
     std::vector<Rgb> slopes(n);
@@ -36,8 +36,9 @@ std::vector<Rgb> monotoneSlopes(std::span<const double> x, std::span<const Rgb> 
             const double before = secant(k == 0 ? 0 : k - 1);
             const double after = secant(k + 1 == n ? k - 1 : k);
             if (before * after <= 0) continue;
-            const std::size_t first = k < 2 ? 0 : k - 2;
-            const double slope = polynomialSlope(x, y, k, first, std::min(k + 3, n), c);
+            // Of five samples, k in the middle where it can be.
+            const std::size_t first = n < 5 ? 0 : std::clamp<std::size_t>(k, 2, n - 3) - 2;
+            const double slope = polynomialSlope(x, y, k, first, std::min(first + 5, n), c);
             const double limit = 3 * std::min(std::abs(before), std::abs(after));
             if (slope * before > 0) slopes[k][c] = std::copysign(std::min(std::abs(slope), limit), before);
         }

@@ -102,11 +102,13 @@ private:
             add(radii[i], values[i]);
             if (i + 1 == radii.size()) break;
             double here = 0;
-            for (std::size_t k = 3 * i; k < 3 * i + 3; ++k) {
-                const Rgb found = profile(probes[k]);
-                for (int c = 0; c < Rgb::channels; ++c)
-                    if (matters(probes[k], exact[k], c, negligible))
-                        here = std::max(here, std::abs(found[c] / exact[k][c] - 1));
+            for (int c = 0; c < Rgb::channels; ++c) {
+                // An interval matters as a whole: where the profile falls steeply only one end may.
+                if (!matters(radii[i], values[i], c, negligible) &&
+                    !matters(radii[i + 1], values[i + 1], c, negligible))
+                    continue;
+                for (std::size_t k = 3 * i; k < 3 * i + 3; ++k)
+                    here = std::max(here, std::abs(profile(probes[k])[c] / exact[k][c] - 1));
             }
             worst = std::max(worst, here);
             if (here > goal) add(probes[3 * i + 1], exact[3 * i + 1]);

@@ -96,7 +96,7 @@ std::string titleText(std::string_view subject, const PencilOptions& options, bo
 }
 
 Axis radiusAxis(const PencilOptions& options) {
-    return {options.angle_deg == 0 ? "Radius" : "Distance from the beam, along its plane", "mm", options.x_scale};
+    return {"Radius", "mm", options.x_scale};
 }
 
 Axis reflectanceAxis(const PencilOptions& options) {
@@ -263,8 +263,7 @@ Figure pencilFigure(std::span<const PencilCurve> models, const PencilReference* 
     if (reference)
         figure.caption += fmt::format(" Reference: mean over each annulus{}; band: ±{}.",
                                       options.radius_power > 0 ? ", times its middle radius" : "", bandText(options));
-    if (reference && options.angle_deg != 0 && reference->edges_mm.front() >= 0)
-        figure.caption += " Oblique light: annuli average over all directions, lines run along the beam's plane.";
+    if (options.angle_deg != 0) figure.caption += " Oblique light: averages over all directions about the beam.";
     if (means_marked)
         figure.caption += fmt::format(
             " Lines: models at a point; dots: their mean over the annulus, where it differs by more than {:.0f} %.",

@@ -85,7 +85,10 @@ class Reduction {
 public:
     Reduction(const HalfSpaceProblem& problem, const HalfSpaceOptions& options, const TallyLayout& layout,
               double transmitted)
-        : options_(options), layout_(layout), transmitted_(transmitted), mfp_(1 / (problem.sigma_a + problem.sigma_s)) {}
+        : options_(options),
+          layout_(layout),
+          transmitted_(transmitted),
+          mfp_(1 / (problem.sigma_a + problem.sigma_s)) {}
 
     void add(const ExitTally& chunk, std::uint64_t walks) {
         const ExitTally::Sums &one = chunk.sums(ExitTally::single), &more = chunk.sums(ExitTally::multiple);
@@ -102,7 +105,8 @@ public:
     }
 
 private:
-    // Per unit incident flux. The scatter of batches without an exit would be 0; one exit is the least that can be said.
+    // Per unit incident flux. The scatter of batches without an exit would be 0; one exit is the least that can be
+    // said.
     Estimate flux(const OrderSums& sums, std::size_t slot) const {
         Estimate e = sums.flux.estimate(slot, options_.walks);
         e.standard_error = std::max(e.standard_error, 1 / static_cast<double>(options_.walks));

@@ -30,14 +30,14 @@ struct HalfSpaceOptions {
 
 /// What left the surface after scattering, per unit incident flux.
 struct HalfSpaceTally {
-    Estimate total;                     ///< diffuse reflectance, everything that left, also beyond the last edge
-    std::vector<double> Rd;             ///< mean over each annulus, 1/mm^2, n values for n + 1 edges
+    Estimate total;          ///< diffuse reflectance, everything that left, also beyond the last edge
+    std::vector<double> Rd;  ///< mean over each annulus, 1/mm^2, n values for n + 1 edges
     /// Of Rd, from the scatter of the chunks; never below that of one exit, so that an empty bin has a bound, not a 0.
     std::vector<double> standard_error;
-    std::vector<double> beyond;         ///< one value: flux outside the edges; kept apart from the last bin
-    Estimate mean_x_mm;                 ///< first moment: shift of the mean exit point towards +x, of what left
-    Estimate mean_r2_mm2;               ///< second moment about the entry point
-    std::vector<double> grid;           ///< row-major over y then x, 1/mm^2, grid * grid values, or empty
+    std::vector<double> beyond;  ///< one value: flux outside the edges; kept apart from the last bin
+    Estimate mean_x_mm;          ///< first moment: shift of the mean exit point towards +x, of what left
+    Estimate mean_r2_mm2;        ///< second moment about the entry point
+    std::vector<double> grid;    ///< row-major over y then x, 1/mm^2, grid * grid values, or empty
     std::vector<double> grid_standard_error;
 };
 

@@ -2,8 +2,8 @@
 // for are started and all are finished (to stop at a number of exits would favour short walks).
 //
 // Positions are float, in mean free paths. Single precision is enough here: a coordinate of a walk is known to 6e-8 of
-// its size, its rounding errors are as often up as down, and what the tally sees is a distance from the entry point, the
-// origin, where float is finest. A walk of 1e4 collisions strays some 1e2 mean free paths and gathers 1e-3 of one.
+// its size, its rounding errors are as often up as down, and what the tally sees is a distance from the entry point,
+// the origin, where float is finest. A walk of 1e4 collisions strays some 1e2 mean free paths and gathers 1e-3 of one.
 // Whatever is small against 1 is kept out of float: absorption (1 - albedo may be 1e-5) ends a walk by a geometric
 // variate rather than a comparison with the albedo, and free paths keep 32 bits so that long ones are not cut.
 #include "transport/half_space_walk.h"
@@ -20,7 +20,8 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "transport/half_space_walk.cpp"
 // SSSE3 would add a copy of the loop that no machine of the last fifteen years prefers. The fallback without SIMD has 4
-// emulated lanes; Highway withholds it from GCC before 12.3 for a fault in 16-bit products, of which there are none here.
+// emulated lanes; Highway withholds it from GCC before 12.3 for a fault in 16-bit products, of which there are none
+// here.
 #define HWY_DISABLED_TARGETS HWY_SSSE3
 #define HWY_BROKEN_EMU128 0
 #include <hwy/foreach_target.h>
@@ -31,7 +32,7 @@ HWY_BEFORE_NAMESPACE();
 namespace searchlight {
 namespace HWY_NAMESPACE {
 
-// Groups of lanes are independent: while one waits for its logarithm, the processor works on the next.
+// Packs of lanes are independent: while one waits for its logarithm, the processor works on the next.
 constexpr std::size_t kLanes = 64;
 constexpr std::size_t kPackLanes = 4;  // the fewest that a target has
 constexpr std::int32_t kNever = std::numeric_limits<std::int32_t>::max();
@@ -64,10 +65,9 @@ class Walker {
 public:
     Walker(const HalfSpaceWalk& walk, SplitMix64 seeds, std::uint64_t walks, ExitTally& tally)
         : walk_(walk), waiting_(walks), tally_(tally) {
-        // Albedo 1 never absorbs, albedo 0 absorbs at once.
         const double log_albedo = std::log1p(-walk.absorbed);
         absorbing_ = walk.absorbed > 0;
-        collisions_per_log_ = absorbing_ ? static_cast<float>(-1 / log_albedo) : 0.0f;
+        collisions_per_log_ = absorbing_ ? static_cast<float>(std::min(-1 / log_albedo, 1e30)) : 0.0f;
         for (std::size_t i = 0; i < kLanes / 2; ++i) {
             from_->s0[i] = seeds.next();
             from_->s1[i] = seeds.next();
@@ -192,7 +192,7 @@ private:
             pack.v = hn::Mul(sine, phi.sin);
             pack.w = s;
         } else {
-            // [Henyey1941]; m = 1 - cos is written without differences of near numbers, for g near 0 and near 1.
+            // [HenyeyGreenstein1941]; m = 1 - cos is written without differences of near numbers, for g near 0 and near 1.
             const FloatV g = hn::Set(d, static_cast<float>(walk_.g));
             const FloatV p = hn::MulAdd(g, s, one);
             const FloatV half_qq = hn::Set(d, static_cast<float>(0.5 * (1 - walk_.g) * (1 - walk_.g)));
@@ -341,8 +341,9 @@ std::uint64_t walkAs(const HalfSpaceWalk& walk, SplitMix64 seeds, std::uint64_t 
 
 std::uint64_t walkChunk(const HalfSpaceWalk& walk, SplitMix64 seeds, std::uint64_t walks, ExitTally& tally) {
     const bool fresnel = walk.eta != 1, isotropic = walk.g == 0;
-    return (fresnel ? isotropic ? walkAs<true, true> : walkAs<true, false>
-                    : isotropic ? walkAs<false, true> : walkAs<false, false>)(walk, seeds, walks, tally);
+    return (fresnel     ? isotropic ? walkAs<true, true> : walkAs<true, false>
+                : isotropic ? walkAs<false, true>
+                        : walkAs<false, false>)(walk, seeds, walks, tally);
 }
 
 const char* targetName() { return hwy::TargetName(HWY_TARGET); }

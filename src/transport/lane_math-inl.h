@@ -1,5 +1,6 @@
 // Random numbers and elementary functions on float lanes, for walks. Included once per instruction set.
-// Every multiply-add is written out and every operation is correctly rounded, so that targets with FMA agree bit for bit.
+// Every multiply-add is written out and every operation is correctly rounded, so that targets with FMA agree bit for
+// bit.
 #if defined(SEARCHLIGHT_TRANSPORT_LANE_MATH_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef SEARCHLIGHT_TRANSPORT_LANE_MATH_INL_H_
 #undef SEARCHLIGHT_TRANSPORT_LANE_MATH_INL_H_
@@ -103,8 +104,8 @@ struct Azimuth {
     FloatV cos, sin;
 };
 
-/// A uniform direction in the plane. The top 24 bits choose an angle in [-pi/2, pi/2), a low bit the sign of the cosine;
-/// cos^2 + sin^2 = 1 within 2e-7.
+/// A uniform direction in the plane. The top 24 bits choose an angle in [-pi/2, pi/2), a low bit the sign of the
+/// cosine; cos^2 + sin^2 = 1 within 5e-7.
 HWY_INLINE Azimuth azimuth(IntV bits) {
     const Float d;
     const FloatV a = hn::Sub(uniform(bits), hn::Set(d, 0.5f));  // the angle over pi

@@ -15,20 +15,20 @@ struct Check {
 };
 
 constexpr Check checks[] = {
-    {{"format", "the file can be read"}, checkFormat},
-    {{"compiles", "OpenGL takes its GLSL"}, checkCompiles},
-    {{"portable", "its GLSL is in the subset that can also be compiled for the CPU"}, checkPortable},
-    {{"finite", "no value is NaN or infinite away from the point of entry"}, checkFinite},
-    {{"non-negative", "no value is below zero"}, checkNonNegative},
-    {{"parameter ends", "values stay finite where a parameter is at an end of its range"}, checkParameterEnds},
-    {{"energy", "no more light leaves than has entered"}, checkEnergy},
-    {{"closed form", "DiffuseReflectance is the integral of the profile"}, checkClosedForm},
-    {{"scaling", "R_d(s r) in a medium s times thinner is R_d(r) / s^2"}, checkScaling},
-    {{"radial", "only the distance of the two points matters, if claimed"}, checkRadial},
-    {{"no_wi", "the direction of incidence does not matter, if claimed"}, checkNoWi},
-    {{"no_wo", "the direction of exit does not matter, if claimed"}, checkNoWo},
-    {{"reciprocal", "light may be followed backwards, if claimed"}, checkReciprocal},
-    {{"backends agree", "OpenGL and native code return the same"}, checkBackendsAgree},
+    {{"format", "can the file be read?"}, checkFormat},
+    {{"compiles", "does OpenGL take its GLSL?"}, checkCompiles},
+    {{"portable", "could its GLSL be compiled for the CPU as well?"}, checkPortable},
+    {{"finite", "is every value a finite number, away from the point of entry?"}, checkFinite},
+    {{"non-negative", "is no value below zero?"}, checkNonNegative},
+    {{"parameter ends", "do values stay finite where a parameter is at an end of its range?"}, checkParameterEnds},
+    {{"energy", "does no more light leave than has entered?"}, checkEnergy},
+    {{"closed form", "is DiffuseReflectance the integral of the profile?"}, checkClosedForm},
+    {{"scaling", "in a medium s times thinner, is R_d(s r) the same as R_d(r) / s^2?"}, checkScaling},
+    {{"radial", "if claimed: does nothing but the distance of the two points matter?"}, checkRadial},
+    {{"no_wi", "if claimed: does the direction of incidence not matter?"}, checkNoWi},
+    {{"no_wo", "if claimed: does the direction of exit not matter?"}, checkNoWo},
+    {{"reciprocal", "if claimed: is it the same with both ends exchanged?"}, checkReciprocal},
+    {{"backends agree", "do OpenGL and native code return the same?"}, checkBackendsAgree},
 };
 
 Finding runCheck(const Check& check, CheckBench& bench) {

@@ -29,7 +29,7 @@ std::string_view outcomeName(CheckResult::Outcome outcome);
 
 struct CheckInfo {
     std::string_view name;
-    std::string_view doc;  ///< one line
+    std::string_view asks;  ///< the question, one line
 };
 
 /// What checkModel looks at, in that order.

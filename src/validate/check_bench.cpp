@@ -71,8 +71,8 @@ std::array<double, 9> haltonPoint(unsigned index) {
     return point;
 }
 
-Vec3 hemisphereDirection(double u, double v) {
-    const double z = 0.02 + 0.98 * u;
+Vec3 hemisphereDirection(double u, double v, double least_cosine) {
+    const double z = least_cosine + (1 - least_cosine) * u;
     const Vec3 flat = circlePoint(std::sqrt(1 - z * z), v);
     return {flat.x, flat.y, z};
 }
@@ -88,8 +88,8 @@ Probe makeProbe(const ProbeOptions& options) {
             const auto u = haltonPoint(++index);
             Query query;
             query.ni = query.no = {0, 0, 1};
-            query.wi = hemisphereDirection(u[0], u[1]);
-            query.wo = hemisphereDirection(u[2], u[3]);
+            query.wi = hemisphereDirection(u[0], u[1], options.least_cosine);
+            query.wo = hemisphereDirection(u[2], u[3], options.least_cosine);
             query.xo = circlePoint(r, u[4]);
             if (options.tilted_exit) {
                 const double height = 2 * u[5] - 1;

@@ -39,7 +39,8 @@ struct Probe {
 struct ProbeOptions {
     int radii = 40;  ///< from 1e-3 to 30 mm, logarithmic
     int directions = 8;
-    bool tilted_exit = false;  ///< exit points above and below the plane, with normals of their own
+    double least_cosine = 0.02;  ///< of wi and wo to the normal
+    bool tilted_exit = false;    ///< exit points above and below the plane, with normals of their own
 };
 
 /// Pencil beams on the plane z = 0: entry at the origin, exit around it, directions over the hemisphere.
@@ -48,8 +49,8 @@ Probe makeProbe(const ProbeOptions& options = {});
 /// Point `index` of the Halton sequence in [0, 1)^9.
 std::array<double, 9> haltonPoint(unsigned index);
 
-/// A direction over the hemisphere about +z that is not grazing: cosine in [0.02, 1].
-Vec3 hemisphereDirection(double u, double v);
+/// A direction over the hemisphere about +z, by u and v in [0, 1).
+Vec3 hemisphereDirection(double u, double v, double least_cosine = ProbeOptions().least_cosine);
 
 /// The largest difference of two runs of one probe, relative to the largest value at that distance.
 struct Difference {

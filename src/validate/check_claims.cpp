@@ -36,6 +36,7 @@ Finding claim(CheckBench& bench, bool claimed, std::string_view attribute, std::
     if (claimed && !holds)
         return failed(
             fmt::format("{} changes the value by {} at {}", what, prettyNumber(found.relative, 2), found.where));
+    if (claimed && found.relative == 0) return passed(fmt::format("{} changes nothing", what));
     if (claimed)
         return passed(fmt::format("{} changes the value by {} at most", what, prettyNumber(found.relative, 2)));
     if (holds)
@@ -131,7 +132,9 @@ Finding checkReciprocal(CheckBench& bench) {
     });
     if (found.relative > bench.rounding())
         return failed(fmt::format("there and back differ by {} at {}", prettyNumber(found.relative, 2), found.where));
-    return passed(fmt::format("there and back differ by {} at most", prettyNumber(found.relative, 2)));
+    return passed(found.relative == 0
+                      ? "there and back are equal"
+                      : fmt::format("there and back differ by {} at most", prettyNumber(found.relative, 2)));
 }
 
 }  // namespace searchlight

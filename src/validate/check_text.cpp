@@ -34,7 +34,8 @@ Finding checkBackendsAgree(CheckBench& bench) {
     if (!bench.gl()) return skipped(bench.noGl());
     // Float carries exponents of up to 50 to 3e-6; the models subtract nothing that would lose more.
     constexpr double tolerance = 1e-5;
-    const Probe probe = makeProbe();
+    // Nearer to grazing, refract() of the same float direction has an error of 6e-8 / cosine^2 at IOR 1.
+    const Probe probe = makeProbe({.least_cosine = 0.2});
     Difference worst;
     for (const Medium& medium : checkMedia()) {
         const std::vector<Rgb> native = bench.values(medium, probe);

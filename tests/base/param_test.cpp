@@ -75,7 +75,7 @@ TEST(Param, ExclusiveBoundIsNotInTheRange) {
     Param param = make(ParamType::number, 0, 1);
     EXPECT_EQ(messageOf(param, "0"), "no error");
     param.exclusive = true;
-    EXPECT_EQ(messageOf(param, "0"), "'0' is no value for p (expected a number above 0 to 1)");
+    EXPECT_EQ(messageOf(param, "0"), "'0' is no value for p (expected a number above 0 and up to 1)");
 }
 
 TEST(Param, ValueOfTheWrongTypeIsRefused) {

@@ -135,6 +135,21 @@ TEST(Context, EnvironmentChoosesThePlatform) {
     unsetenv("SEARCHLIGHT_GL");
 }
 
+// In a process of its own, which has not loaded EGL yet.
+TEST(ContextDeathTest, MissingDriverIsADeviceErrorAndNoAbort) {
+    testing::GTEST_FLAG(death_test_style) = "threadsafe";
+    const auto tryWithoutDrivers = [] {
+        setenv("__EGL_VENDOR_LIBRARY_DIRS", "/nonexistent", 1);
+        try {
+            const Context context;
+        } catch (const Error& error) {
+            std::_Exit(error.kind == ErrorKind::device && error.hint.find("apt install") == 0 ? 4 : 1);
+        }
+        std::_Exit(0);
+    };
+    EXPECT_EXIT(tryWithoutDrivers(), testing::ExitedWithCode(4), "");
+}
+
 TEST(Context, DriverErrorSurfacesAtTheNextCheckpoint) {
     Context context;
     Program program(context, sourceOf("layout(std430, binding = 0) buffer Data { int x[]; };\n"

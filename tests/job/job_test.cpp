@@ -1,7 +1,6 @@
 #include "job/job.h"
 
-#include "base/error.h"
-#include "base/files.h"
+#include "illegal/messages.h"
 #include "job/command.h"
 
 namespace searchlight {
@@ -46,53 +45,9 @@ TEST(Job, DefaultsOfCommandsAreValidValues) {
         }
 }
 
-struct IllegalJob {
-    const char* text;
-    const char* message;
-};
-
-class IllegalJobs : public testing::TestWithParam<IllegalJob> {};
-
-TEST_P(IllegalJobs, AreRefusedWithOneMessage) {
-    try {
-        parseJob(GetParam().text, "job.json");
-        FAIL() << "accepted: " << GetParam().text;
-    } catch (const Error& error) {
-        EXPECT_STREQ(error.what(), GetParam().message);
-        EXPECT_EQ(error.kind, ErrorKind::input);
-    }
+TEST(Job, EveryIllegalFileFailsWithItsMessage) {
+    expectMessages("jobs", [](auto text, auto path) { parseJob(text, path); });
 }
-
-const IllegalJob illegal_jobs[] = {
-    {"", "job.json:1:1: not valid JSON: unexpected end of input"},
-    {"{\"format\": \"searchlight-job/1\",\n \"command\" \"profile\"}", ""},
-    {"[]", "job.json:1:1: a job is a JSON object ({\"format\": \"searchlight-job/1\", ...})"},
-    {"{}", "job.json:1:1: no format (expected \"format\": \"searchlight-job/1\")"},
-    {"{\"format\": 1}", ""},
-    {"{\"format\": \"searchlight-scene/1\"}", ""},
-    {"{\"format\": \"searchlight-job/2\", \"command\": \"profile\"}", ""},
-    {"{\"format\": \"searchlight-job/x\"}", ""},
-    {"{\"format\": \"searchlight-job/1\"}", ""},
-    {"{\"format\": \"searchlight-job/1\", \"command\": 7}", ""},
-    {"{\"format\": \"searchlight-job/1\", \"command\": \"profil\"}", ""},
-    {"{\"format\": \"searchlight-job/1\", \"command\": \"profile\", \"optoins\": {}}", ""},
-    {"{\"format\": \"searchlight-job/1\", \"command\": \"profile\", \"options\": []}", ""},
-    {"{\"format\": \"searchlight-job/1\", \"command\": \"profile\", \"options\": {\"radius\": 1}}", ""},
-    {"{\"format\": \"searchlight-job/1\", \"command\": \"profile\", \"options\": {\"radii\": [1, -1]}}", ""},
-    {"{\"format\": \"searchlight-job/1\", \"command\": \"profile\", \"options\": {\"radii\": \"1,2\"}}", ""},
-    {"{\"format\": \"searchlight-job/1\", \"command\": \"profile\", \"options\": {\"per\": \"photon\"}}", ""},
-    {"{\"format\": \"searchlight-job/1\", \"command\": \"profile\", \"options\": {\"angle_deg\": 90}}", ""},
-    {"{\"format\": \"searchlight-job/1\", \"command\": \"invert\", \"options\": {\"Rdr\": 0.5}}", ""},
-    {"{\"format\": \"searchlight-job/1\", \"command\": \"reference halfspace\", \"options\": {\"walks\": 1.5}}", ""},
-    {"{\"format\": \"searchlight-job/1\", \"command\": \"reference halfspace\", \"seed\": -1}", ""},
-    {"{\"format\": \"searchlight-job/1\", \"command\": \"reference halfspace\", \"seed\": 1e300}", ""},
-    {"{\"format\": \"searchlight-job/1\", \"command\": \"profile\", \"output\": 3}", ""},
-    {"{\"format\": \"searchlight-job/1\", \"command\": \"profile\",\n \"scene\": {}}", ""},
-    {"{\"format\": \"searchlight-job/1\", \"command\": \"profile\",\n \"scene\": {\"format\": \"searchlight-scene/1\",\n  \"material\": 4}}", ""},
-    {"{\"format\": \"searchlight-job/1\", \"command\": \"profile\", \"command\": \"check\"}", ""},
-};
-
-INSTANTIATE_TEST_SUITE_P(Job, IllegalJobs, testing::ValuesIn(illegal_jobs));
 
 }  // namespace
 }  // namespace searchlight

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "base/files.h"
 #include "gl_test_model.h"
 
 namespace searchlight {
@@ -12,46 +13,11 @@ namespace {
 
 using testing::HasSubstr;
 
-// The classical dipole laid out as the thesis does in listing A.2: plain globals that init() fills, one of which is
-// hidden by a parameter of DiffuseReflectance.
-constexpr std::string_view thesis_dipole = R"(analytic radial no_wi no_wo
-:: begin parameters
-float Multiplier 0.0 10.0 1.0
-:: end parameters
-::begin initializer
-vec3 Lu;
-vec3 AlphaPrime;
-vec3 SigmaTr;
-float A;
-
-void init() {
-    float Fdr = -1.44/(IOR*IOR) + 0.71/IOR + 0.668 + 0.0636*IOR;
-    A = (1.0 + Fdr)/(1.0 - Fdr);
-    vec3 SigmaTPrime = SigmaS*(1.0 - G) + SigmaA;
-    SigmaTr = sqrt(3.0*SigmaA*SigmaTPrime);
-    AlphaPrime = SigmaS*(1.0 - G)/SigmaTPrime;
-    Lu = 1.0/SigmaTPrime;
+// The listing of the thesis: plain globals that init() fills, one of which a parameter of DiffuseReflectance hides.
+Model thesisDipole() {
+    const std::string path = SEARCHLIGHT_SOURCE_DIR "/tests/language/data/listing_a2.bssrdf";
+    return modelOf(readFile(path), path);
 }
-::end initializer
-:: begin diffuseReflectance
-vec3 DiffuseReflectance(vec3 AlphaPrime) {
-    vec3 T = sqrt(3.0*(1.0 - AlphaPrime));
-    return AlphaPrime*0.5*(1.0 + exp(-4.0/3.0*A*T))*exp(-T);
-}
-:: end diffuseReflectance
-:: begin shader
-vec3 Bssrdf(vec3 Xi, vec3 Wi, vec3 Xo, vec3 Wo) {
-    vec3 R = vec3(dot(Xi - Xo, Xi - Xo));
-    vec3 Zr = Lu;
-    vec3 Zv = Lu*(1.0 + 4.0/3.0*A);
-    vec3 Dr = sqrt(R + Zr*Zr);
-    vec3 Dv = sqrt(R + Zv*Zv);
-    vec3 C1 = Zr*(SigmaTr + 1.0/Dr);
-    vec3 C2 = Zv*(SigmaTr + 1.0/Dv);
-    return Multiplier/(4.0*PI)*AlphaPrime*(C1*exp(-SigmaTr*Dr)/(Dr*Dr) + C2*exp(-SigmaTr*Dv)/(Dv*Dv));
-}
-::end shader
-)";
 
 // [Jensen2001] Eq. 4 in double, without the arrangement of the listing.
 double dipole(double sigma_a, double sigma_sp, double eta, double r) {
@@ -71,7 +37,7 @@ protected:
 };
 
 TEST_F(GlEvaluator, ThesisDipoleAgreesWithDouble) {
-    const Model model = modelOf(thesis_dipole);
+    const Model model = thesisDipole();
     const auto evaluator = makeGlEvaluator(model, context_);
     const Medium marble{{0.0021, 0.0041, 0.0071}, {2.19, 2.62, 3.00}, {0, 0, 0}, 1.5};
     evaluator->set(marble, {});
@@ -86,7 +52,7 @@ TEST_F(GlEvaluator, ThesisDipoleAgreesWithDouble) {
 }
 
 TEST_F(GlEvaluator, ParameterThatShadowsStateIsTheParameter) {
-    const Model model = modelOf(thesis_dipole);
+    const Model model = thesisDipole();
     const auto evaluator = makeGlEvaluator(model, context_);
     evaluator->set({{0.1, 0.1, 0.1}, {1, 1, 1}, {0, 0, 0}, 1.5}, {});
     const Rgb value = evaluator->diffuseReflectance({0.5, 0.9, 1});
@@ -96,7 +62,7 @@ TEST_F(GlEvaluator, ParameterThatShadowsStateIsTheParameter) {
 }
 
 TEST_F(GlEvaluator, NewMediumRunsInitAgain) {
-    const Model model = modelOf(thesis_dipole);
+    const Model model = thesisDipole();
     const auto evaluator = makeGlEvaluator(model, context_);
     evaluator->set({{0.1, 0.1, 0.1}, {1, 1, 1}, {0, 0, 0}, 1.3}, {});
     evaluateAt(*evaluator, queryAt(1));
@@ -247,7 +213,7 @@ TEST_F(GlEvaluator, NonFiniteValuesPassThrough) {
 }
 
 TEST_F(GlEvaluator, ChannelWithoutScatteringIsLeftAsTheModelComputesIt) {
-    const Model model = modelOf(thesis_dipole);
+    const Model model = thesisDipole();
     const auto evaluator = makeGlEvaluator(model, context_);
     evaluator->set({{0, 0.1, 0.1}, {0, 1, 1}, {0, 0, 0}, 1.5}, {});
     const Rgb value = evaluateAt(*evaluator, queryAt(1));
@@ -285,7 +251,7 @@ TEST_F(GlEvaluator, NamesItsBackend) {
 }
 
 TEST_F(GlEvaluator, TwoEvaluatorsShareAContext) {
-    const Model first_model = modelOf(all_parameters), second_model = modelOf(thesis_dipole);
+    const Model first_model = modelOf(all_parameters), second_model = thesisDipole();
     const auto first = makeGlEvaluator(first_model, context_);
     const auto second = makeGlEvaluator(second_model, context_);
     first->set({}, {{"Scale", 5.0}});

@@ -64,6 +64,10 @@ TEST_F(GlLoops, EndlessInnerLoopIsReportedAtItsLine) {
     EXPECT_EQ(failingLine(modelText("for (int i = 0; i < 3; ++i) {\n    while (i >= 0) Sum += 1.0;\n}")), 6);
 }
 
+TEST_F(GlLoops, EndlessLoopOverPhysicsIsReportedAtTheModelsLine) {
+    EXPECT_EQ(failingLine(modelText("for (;;)\n    Sum += fresnelMoment(1, 1.5 + Sum);")), 5);
+}
+
 TEST_F(GlLoops, NestedLoopsSpendOneBudget) {
     const int line = failingLine(
         modelText("for (int i = 0; i < 2000; ++i)\n    for (int j = 0; j < 2000; ++j)\n        Sum += 1.0;"));

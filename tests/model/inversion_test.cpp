@@ -74,7 +74,8 @@ TEST(Inversion, ReachesAlbedosNearOne) {
     const LoadedModel loaded = load("dipole", skin1);
     const Inversion found = invert(*loaded.evaluator, loaded.model, {}, target({0.999, 0.9999, 1}, {1, 1, 1}, 1.3));
     EXPECT_EQ(found.reached, (std::vector<bool>{true, true, false}));
-    EXPECT_NEAR(found.achieved.g, 0.9999, 1e-12);
+    // alpha' = 1 - 2e-9 is held to 1e-16, and the slope is 1 / sqrt(1 - alpha').
+    EXPECT_NEAR(found.achieved.g, 0.9999, 1e-10);
 }
 
 TEST(Inversion, ParametersOfTheModelMatter) {

@@ -150,10 +150,12 @@ TEST_P(Tabulated, IsAsAccurateAsStatedBetweenItsSamples) {
         for (std::size_t i = 0; i < radii.size(); ++i)
             for (int c = 0; c < 3; ++c) largest[c] = std::max(largest[c], radii[i] * radii[i] * exact[i][c]);
         for (std::size_t i = 0; i < radii.size(); ++i)
-            for (int c = 0; c < 3; ++c)
-                if (radii[i] * radii[i] * exact[i][c] > 1e-6 * largest[c])
-                    EXPECT_NEAR(table.profile(radii[i])[c] / exact[i][c], 1, 1.2e-4) << radii[i];
-        const Rgb total = loaded.evaluator ? totalRd(*loaded.evaluator, loaded.model, medium) : Rgb{};
+            for (int c = 0; c < 3; ++c) {
+                if (radii[i] * radii[i] * exact[i][c] < 1e-6 * largest[c]) continue;
+                // Three probes in an interval may miss the largest error between them by a little.
+                EXPECT_NEAR(table.profile(radii[i])[c] / exact[i][c], 1, 1.2e-4) << radii[i];
+            }
+        const Rgb total = totalRd(*loaded.evaluator, loaded.model, medium);
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(table.profile.total()[c] / total[c], 1, 2e-5);
     }
 }

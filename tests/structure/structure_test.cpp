@@ -148,7 +148,8 @@ TEST(Structure, TestsMirrorTheSources) {
         EXPECT_TRUE(fs::exists(root() / "src" / folder.name / "CMakeLists.txt")) << "src/" << folder.name;
         EXPECT_TRUE(fs::exists(root() / "tests" / folder.name / "CMakeLists.txt")) << "tests/" << folder.name;
     }
-    const std::vector<std::string> others{"structure", "agreement", "golden", "illegal", "data", "fuzz", "cli", "gui", "docs"};
+    const std::vector<std::string> others{"structure", "agreement", "golden", "illegal", "data",
+                                          "fuzz",      "cli",       "gui",    "docs"};
     for (const fs::directory_entry& entry : fs::directory_iterator(root() / "tests")) {
         const std::string name = entry.path().filename().string();
         EXPECT_TRUE(!entry.is_directory() || std::ranges::find(others, name) != others.end() ||

@@ -87,15 +87,15 @@ inline void compareSearchlight(Judge& judge, double walks, std::uint64_t seed) {
     }
 }
 
-/// Flux scattered exactly once that leaves within annuli, per unit incident flux, normal incidence. With the depth t and
-/// the cosine mu of the way back, r = t tan, the integral over depth is closed ([Habel2013] section 5, unreduced):
+/// Flux scattered exactly once that leaves within annuli, per unit incident flux, normal incidence. With the depth t
+/// and the cosine mu of the way back, r = t tan, the integral over depth is closed ([Habel2013] section 5, unreduced):
 /// a T12 int 2 pi p(-mu) T(mu) mu / (1 + mu) [exp(-r0 (1 + mu) / sin) - exp(-r1 (1 + mu) / sin)] dmu.
 inline std::vector<double> exactSingle(const HalfSpaceProblem& problem, const std::vector<double>& edges) {
     const double eta = problem.eta, g = problem.g, sigma_t = problem.sigma_a + problem.sigma_s;
     const double critical = eta > 1 ? std::sqrt(1 - 1 / (eta * eta)) : 0.0;
     std::vector<double> flux(edges.size() - 1, 0.0);
-    // mu = critical + (1 - critical) q^2 smooths the root in T at the critical cosine; 1 - q = p^2 crowds the points where
-    // small radii come from. Midpoint rule: 2e5 points leave 1e-7.
+    // mu = critical + (1 - critical) q^2 smooths the root in T at the critical cosine; 1 - q = p^2 crowds the points
+    // where small radii come from. Midpoint rule: 2e5 points leave 1e-7.
     constexpr int points = 200'000;
     for (int i = 0; i < points; ++i) {
         const double p = (i + 0.5) / points, q = 1 - p * p;

@@ -4,7 +4,9 @@
 namespace searchlight {
 namespace {
 
-// Power: at 1e5 walks the median standard error is 0.3 %; leaving out internal reflection moves totals by 10 % and more.
+// Power: the standard errors are 0.1 % to 5 % of the totals, 0.7 % in the middle of the range; a family of 100 sees a
+// common shift of a tenth of that. Leaving out internal reflection, or the last line of a roulette, moves totals by 10
+// %.
 TEST(HalfSpace, MatchedTotalsAgreeWithTheHFunctionAtSevenIncidences) {
     Judge judge;
     compareMatchedTotals(judge, 2e4, 1000);
@@ -29,11 +31,11 @@ TEST(HalfSpace, SingleScatteringAgreesWithQuadrature) {
     judge.expectAgreement();
 }
 
-// The mean is 1; walks that meet the roulette carry 1e-2 of it, so a roulette that cuts would be 3 errors low.
+// Weak, because these walks are long: sees an error of 2 %. The roulette itself is checked in long_walk_test.cpp.
 TEST(HalfSpace, WithoutAbsorptionEverythingLeaves) {
     Judge judge;
-    judge.compare("matched", walk(ofAlbedo(1), 2e4, 5).all.total, 1);
-    judge.compare("index 1.4, g 0.5", walk(ofAlbedo(1, 1.4, 0.5), 2e4, 6).all.total, 1 - std::pow(0.4 / 2.4, 2));
+    judge.compare("matched", walk(ofAlbedo(1), 4000, 5).all.total, 1);
+    judge.compare("index 1.4, g 0.5", walk(ofAlbedo(1, 1.4, 0.5), 4000, 6).all.total, 1 - std::pow(0.4 / 2.4, 2));
     judge.expectAgreement();
 }
 

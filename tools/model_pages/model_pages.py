@@ -103,10 +103,13 @@ def described(model):
     return page
 
 
+def checks(searchlight, model):
+    return json.loads(run(searchlight, "check", model["id"], "--json"))["checks"]
+
+
 def checked(searchlight, model):
     """The verdicts of the lint on the machine that writes the pages."""
-    checks = json.loads(run(searchlight, "check", model["id"], "--json"))["checks"]
-    rows = [[check["name"], check["outcome"], check["detail"]] for check in checks]
+    rows = [[check["name"], check["outcome"], check["detail"]] for check in checks(searchlight, model)]
     return f"\n## Checks\n\n`searchlight check {model['id']}` says:\n\n" + table(["check", "verdict", "found"], rows)
 
 
@@ -115,10 +118,12 @@ def plot(searchlight, model):
         "--reference-walks", str(PLOT_WALKS), "--seed", str(PLOT_SEED), "-o", str(PAGES / f"{model['id']}.svg"))
 
 
-def index(models):
+def index(searchlight, models):
     page = "# Models\n\nWhat ships, in the order of the menus. [Write your own](../write-a-model.md) in ten minutes.\n\n"
     rows = [[f"[`{m['id']}`]({m['id']}.md)", m["title"], m["citation"]] for m in models]
     page += table(["model", "", "published in"], rows)
+    page += "\n## What check looks at\n\nThe page of each model ends with what `searchlight check` says about it.\n\n"
+    page += table(["check", "asks"], [[check["name"], check["asks"]] for check in checks(searchlight, models[0])])
     return page + "\nThese pages are written by [tools/model_pages](../../tools/model_pages/model_pages.py).\n"
 
 
@@ -129,7 +134,7 @@ def main():
     arguments = parser.parse_args()
     models = json.loads(run(arguments.searchlight, "models", "--json"))["models"]
 
-    pages = {"README.md": index(models)} | {f"{model['id']}.md": described(model) for model in models}
+    pages = {"README.md": index(arguments.searchlight, models)} | {f"{model['id']}.md": described(model) for model in models}
     if arguments.stale:
         stale = [name for name, text in pages.items()
                  if not (PAGES / name).exists() or not (PAGES / name).read_text().startswith(text)]
