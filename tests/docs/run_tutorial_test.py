@@ -19,7 +19,8 @@ class RunnerOfTutorials(unittest.TestCase):
             return run_page(page, program)
 
     def test_runs_the_program_of_the_build(self):
-        self.assertEqual(self.run_text("<!-- run -->\n```sh\nsearchlight\n```\n<!-- output -->\n```text\nvalue 1.25 mm\n```\n"), 1)
+        run = "<!-- run -->\n```sh\nsearchlight\n```\n<!-- output -->\n"
+        self.assertEqual(self.run_text(run + "```text\nvalue 1.25 mm\n```\n"), 1)
 
     def test_a_failing_command_is_wrong(self):
         with self.assertRaises(Wrong):

@@ -123,7 +123,7 @@ TEST(Gaussians, DoNotReadTheMedium) {
 
 TEST(NormalizedDiffusion, EncirclesWhatItsClosedFormSays) {
     const Medium medium = grey(0.032, 0.74, 0, 1.3);
-    const LoadedModel loaded = load("normalized_diffusion", medium);
+    const LoadedModel loaded = load("normalized_diffusion", medium, choose("Parameterization", "searchlight"));
     const double A = loaded.closedForm();
     // d of Eq. 5, mean free path 1 / sigma_t'.
     const double d = 1 / (0.772 * (1.85 - A + 7 * std::pow(std::abs(A - 0.8), 3)));

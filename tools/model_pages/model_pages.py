@@ -39,7 +39,8 @@ SECTIONS = [
 
 
 def run(searchlight, *arguments):
-    done = subprocess.run([searchlight, *arguments], capture_output=True, text=True)
+    # From the root, so that no picture carries a path of this machine.
+    done = subprocess.run([searchlight, *arguments], capture_output=True, text=True, cwd=ROOT)
     # 1 is the verdict of a check that failed; the page says so.
     if done.returncode not in (0, 1):
         sys.exit(f"searchlight {' '.join(arguments)}: {done.stderr.strip()}")
@@ -80,6 +81,7 @@ def described(model):
     page += f"`{model['id']}`, from [models/{model['id']}.bssrdf](../../models/{model['id']}.bssrdf)\n\n"
     page += f"> {model['citation']}\n\n"
     page += f"![{model['title']} beside Monte Carlo]({model['id']}.svg)\n\n"
+    page += f"Skin1 of Jensen et al. 2001, {PLOT_WALKS:,} walks, seed {PLOT_SEED}.\n\n"
     if model["validity"]:
         page += f"**Valid for** {model['validity']}.\n\n"
     if model.get("notes"):
@@ -94,8 +96,8 @@ def described(model):
         page += f"\nSet one with `--set {model['parameters'][0]['name']}=...`.\n"
     else:
         page += "None but those of the medium.\n"
-    page += ("\n## Formulas\n\nThe medium stands in `SigmaA`, `SigmaS`, `G` (per channel) and `IOR`; functions that are not "
-             "defined here are those of [physics/](../../physics). The value is R_d, in 1/mm² per unit flux that has "
+    page += ("\n## Formulas\n\nThe medium stands in `SigmaA`, `SigmaS`, `G` (per channel) and `IOR`; functions that "
+             "are not defined here are those of [physics/](../../physics). The value is R_d, in 1/mm² per unit flux that has "
              "entered ([conventions](../conventions.md)).\n")
     for name, heading in SECTIONS:
         if (glsl := section(text, name)) is not None:
@@ -114,35 +116,40 @@ def checked(searchlight, model):
 
 
 def plot(searchlight, model):
-    run(searchlight, "plot", "pencil", "--material", "skin1", "--models", model["id"],
-        "--reference-walks", str(PLOT_WALKS), "--seed", str(PLOT_SEED), "-o", str(PAGES / f"{model['id']}.svg"))
+    run(searchlight, "plot", "pencil", "--material", "skin1", "--models", model["id"], "--x-scale", "sqrt",
+        "--reference-walks", str(PLOT_WALKS), "--seed", str(PLOT_SEED), "-o", str((PAGES / f"{model['id']}.svg").relative_to(ROOT)))
 
 
-def index(searchlight, models):
+def index(models):
     page = "# Models\n\nWhat ships, in the order of the menus. [Write your own](../write-a-model.md) in ten minutes.\n\n"
     rows = [[f"[`{m['id']}`]({m['id']}.md)", m["title"], m["citation"]] for m in models]
     page += table(["model", "", "published in"], rows)
-    page += "\n## What check looks at\n\nThe page of each model ends with what `searchlight check` says about it.\n\n"
-    page += table(["check", "asks"], [[check["name"], check["asks"]] for check in checks(searchlight, models[0])])
     return page + "\nThese pages are written by [tools/model_pages](../../tools/model_pages/model_pages.py).\n"
+
+
+def questions(searchlight, model):
+    rows = [[check["name"], check["asks"]] for check in checks(searchlight, model)]
+    return ("\n## What check looks at\n\nThe page of each model ends with what `searchlight check` says about it.\n\n"
+            + table(["check", "asks"], rows))
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("searchlight", help="the program")
+    parser.add_argument("searchlight", type=lambda path: str(Path(path).resolve()), help="the program")
     parser.add_argument("--stale", action="store_true", help="write nothing; exit 1 when a page needs writing")
     arguments = parser.parse_args()
     models = json.loads(run(arguments.searchlight, "models", "--json"))["models"]
 
-    pages = {"README.md": index(arguments.searchlight, models)} | {f"{model['id']}.md": described(model) for model in models}
+    pages = {"README.md": index(models)} | {f"{model['id']}.md": described(model) for model in models}
     if arguments.stale:
         stale = [name for name, text in pages.items()
                  if not (PAGES / name).exists() or not (PAGES / name).read_text().startswith(text)]
         stale += [path.name for path in PAGES.glob("*.md") if path.name not in pages]
         if stale:
-            sys.exit(f"docs/models: {', '.join(stale)} need writing: tools/model_pages/model_pages.py "
-                     f"{arguments.searchlight}")
+            sys.exit(f"docs/models: to be written again: {', '.join(stale)}\n"
+                     f"{Path(__file__).resolve()} {arguments.searchlight}")
         return
+    pages["README.md"] += questions(arguments.searchlight, models[0])
     for model in models:
         pages[f"{model['id']}.md"] += checked(arguments.searchlight, model)
         plot(arguments.searchlight, model)
