@@ -124,7 +124,7 @@ std::vector<double> plotEdges(const Medium& medium, double r_max_mm, int bins) {
 
 std::vector<double> curveRadii(double r_max_mm, int count) {
     std::vector<double> radii;
-    for (int i = 0; i < count; ++i) radii.push_back(r_max_mm * std::pow(10.0, 3.0 * i / (count - 1) - 3));
+    for (int i = 0; i < count; ++i) radii.push_back(r_max_mm * std::pow(10.0, 4.5 * i / (count - 1) - 4.5));
     return radii;
 }
 

@@ -51,8 +51,8 @@ PencilCurve modelCurve(LoadedModel& loaded, double angle_deg, const std::vector<
 /// beam is resolved.
 std::vector<double> plotEdges(const Medium& medium, double r_max_mm, int bins);
 
-/// `count` radii from r_max / 1000 to r_max, logarithmic, for smooth curves.
-std::vector<double> curveRadii(double r_max_mm, int count = 256);
+/// `count` radii from 3e-5 r_max, which no axis tells from 0, to r_max, logarithmic, for smooth curves.
+std::vector<double> curveRadii(double r_max_mm, int count = 384);
 
 struct AlbedoData {
     std::vector<AlbedoCurve> models;

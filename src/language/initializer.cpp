@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <list>
 #include <map>
 #include <optional>
 #include <set>
@@ -107,10 +108,7 @@ public:
 
     Initializer run() {
         if (file_.initializer.present()) split();
-        std::set<std::string_view> names;
-        for (const StateVariable& variable : result_.state) names.insert(variable.name);
-        for (const BssrdfSection* section : {&file_.initializer, &file_.diffuse_reflectance, &file_.shader})
-            checkWrites(*section, names);
+        checkWrites();
         return std::move(result_);
     }
 
@@ -198,12 +196,22 @@ private:
         }
     }
 
-    static void checkWrites(const BssrdfSection& section, const std::set<std::string_view>& state) {
-        if (!section.present()) return;
-        const std::vector<Token> tokens = tokenize(section.text, section.first_line);
-        for (const Function& function : outline(tokens).functions)
-            if (!function.body.empty() && !(function.name.text == "init" && function.parameters.empty()))
-                checkStateWrites(function, state);
+    // Only init() writes State, in whatever section a function stands.
+    void checkWrites() const {
+        std::set<std::string_view> state;
+        for (const StateVariable& variable : result_.state) state.insert(variable.name);
+        std::list<std::vector<Token>> tokens;
+        std::vector<Outline> outlines;
+        OutParameters out_parameters;
+        for (const BssrdfSection* section : {&file_.initializer, &file_.diffuse_reflectance, &file_.shader}) {
+            if (!section->present()) continue;
+            outlines.push_back(outline(tokens.emplace_back(tokenize(section->text, section->first_line))));
+            collectOutParameters(outlines.back(), out_parameters);
+        }
+        for (const Outline& sections : outlines)
+            for (const Function& function : sections.functions)
+                if (!function.body.empty() && !(function.name.text == "init" && function.parameters.empty()))
+                    checkStateWrites(function, state, out_parameters);
     }
 
     const BssrdfFile& file_;

@@ -23,7 +23,8 @@ bool isAssignment(const Token& token) {
 // Walks a function body, minding locals and parameters.
 class StateWrites {
 public:
-    StateWrites(const Names& state, const Function& function) : state_(state), function_(function) {}
+    StateWrites(const Names& state, const OutParameters& out_parameters, const Function& function)
+        : state_(state), out_parameters_(out_parameters), function_(function) {}
 
     void check() {
         scopes_.emplace_back();
@@ -76,6 +77,13 @@ private:
     bool isWritten() const {
         const std::span<const Token> body = function_.body;
         if (body[at_ - 1].text == "++" || body[at_ - 1].text == "--") return true;
+        const std::size_t after = behindSuffixes();
+        return after < body.size() && (isAssignment(body[after]) || isOutArgument(after));
+    }
+
+    // The token behind "[i]" and ".x" that follow the name.
+    std::size_t behindSuffixes() const {
+        const std::span<const Token> body = function_.body;
         std::size_t after = at_ + 1;
         while (after + 1 < body.size()) {
             if (body[after].text == "[")
@@ -85,7 +93,26 @@ private:
             else
                 break;
         }
-        return after < body.size() && isAssignment(body[after]);
+        return after;
+    }
+
+    // Whether the name stands alone between the commas of a call, where the function called writes.
+    bool isOutArgument(std::size_t after) const {
+        const std::span<const Token> body = function_.body;
+        const std::string_view before = body[at_ - 1].text, behind = body[after].text;
+        if ((before != "(" && before != ",") || (behind != ")" && behind != ",")) return false;
+        std::size_t position = 0, open = at_ - 1;
+        for (int depth = 0; open > 0; --open) {
+            const std::string_view text = body[open].text;
+            if (text == ")" || text == "]") ++depth;
+            if (text == "[") --depth;
+            if (text == "(" && depth-- == 0) break;
+            if (text == "," && depth == 0) ++position;
+            if (text == ";" || text == "{") return false;
+        }
+        if (open == 0) return false;
+        const auto writer = out_parameters_.find(body[open - 1].text);
+        return writer != out_parameters_.end() && position < writer->second.size() && writer->second[position];
     }
 
     void declare(const Token& name) { scopes_.back().insert(name.text); }
@@ -94,6 +121,7 @@ private:
     }
 
     const Names& state_;
+    const OutParameters& out_parameters_;
     const Function& function_;
     std::size_t at_ = 0;
     std::vector<Names> scopes_;
@@ -103,6 +131,19 @@ private:
 
 }  // namespace
 
-void checkStateWrites(const Function& function, const Names& state) { StateWrites(state, function).check(); }
+void collectOutParameters(const Outline& outline, OutParameters& into) {
+    for (const Function& function : outline.functions)
+        for (std::size_t i = 0; i < function.parameters.size(); ++i)
+            for (const Token& qualifier : function.parameters[i].qualifiers) {
+                if (qualifier.text != "out" && qualifier.text != "inout") continue;
+                std::vector<bool>& writes = into[function.name.text];
+                if (writes.size() <= i) writes.resize(i + 1);
+                writes[i] = true;
+            }
+}
+
+void checkStateWrites(const Function& function, const Names& state, const OutParameters& out_parameters) {
+    StateWrites(state, out_parameters, function).check();
+}
 
 }  // namespace searchlight

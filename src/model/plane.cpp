@@ -111,16 +111,23 @@ std::vector<Rgb> planeRd(Evaluator& evaluator, const Model& model, const Medium&
     const Vec3 up{0, 0, 1};
     const Vec3 wi = pencilBeam(medium.eta, angle_deg).wi;
     const std::vector<Exit> exits = exitDirections(model, medium.eta);
-    std::vector<Query> queries;
-    queries.reserve(points_mm.size() * exits.size());
-    for (const Vec3& point : points_mm)
-        for (const Exit& exit : exits) queries.push_back({{}, wi, up, {point.x, point.y, 0}, exit.wo, up});
-    std::vector<Rgb> values(queries.size());
-    evaluator.evaluate(queries, values);
-    if (exits.size() == 1) return values;
     std::vector<Rgb> Rd(points_mm.size());
-    for (std::size_t i = 0; i < values.size(); ++i)
-        Rd[i / exits.size()] = Rd[i / exits.size()] + exits[i % exits.size()].weight * values[i];
+    // In slices, so that an integral over directions at every point of an oblique plane stays within some MiB.
+    const std::size_t slice = std::max<std::size_t>(1, (std::size_t{1} << 16) / exits.size());
+    std::vector<Query> queries;
+    std::vector<Rgb> values;
+    for (std::size_t begin = 0; begin < points_mm.size(); begin += slice) {
+        const auto points = points_mm.subspan(begin, std::min(slice, points_mm.size() - begin));
+        queries.clear();
+        for (const Vec3& point : points)
+            for (const Exit& exit : exits) queries.push_back({{}, wi, up, {point.x, point.y, 0}, exit.wo, up});
+        values.resize(queries.size());
+        evaluator.evaluate(queries, values);
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            Rgb& sum = Rd[begin + i / exits.size()];
+            sum = sum + exits[i % exits.size()].weight * values[i];
+        }
+    }
     return Rd;
 }
 
@@ -180,16 +187,19 @@ Rgb totalRd(Evaluator& evaluator, const Model& model, const Medium& medium, doub
     const double from = 1e-12 * lengths.min, to = 1e12 * lengths.max;
     double step = 0.5;
     Rgb sum = logarithmicSum(evaluator, model, medium, angle_deg, from, to, step, 0);
-    // The limit is reached where the model has kinks (a clamp), or answers in single precision.
+    double last_change = 1;
     for (int halving = 0; halving < 5; ++halving) {
         const Rgb between = logarithmicSum(evaluator, model, medium, angle_deg, from, to, step, 0.5);
         const Rgb refined = 0.5 * (sum + between);
         step *= 0.5;
-        bool converged = true;
+        double change = 0;
         for (int c = 0; c < Rgb::channels; ++c)
-            converged = converged && !(std::abs(refined[c] - sum[c]) > 1e-11 * std::abs(refined[c]));
+            if (std::isfinite(refined[c]) && refined[c] != 0)
+                change = std::max(change, std::abs((refined[c] - sum[c]) / refined[c]));
         sum = refined;
-        if (converged) break;
+        // A small change that halving the step does not halve is rounding: the model answers in single precision.
+        if (change <= 1e-11 || (change < 1e-5 && change > 0.5 * last_change)) break;
+        last_change = change;
     }
     return sum;
 }

@@ -87,6 +87,8 @@ const std::map<std::string, std::string> messages = {
      "8:31: Bssrdf writes 'Table' (globals of the initializer are the model's state: only init() may change them)"},
     {"state_incremented",
      "4:19: helper writes 'Count' (globals of the initializer are the model's state: only init() may change them)"},
+    {"state_out_argument",
+     "11:26: Bssrdf writes 'A' (globals of the initializer are the model's state: only init() may change them)"},
     {"state_parameter_name", "6:7: 'Clamp' is already a parameter of the model"},
     {"state_sampler",
      "3:1: a global of the initializer cannot have type 'sampler2D' (valid: float, int, uint, bool, their vectors, and "
