@@ -76,17 +76,20 @@ CLI::App& subcommand(CLI::App& root, const Command& command) {
     for (std::size_t i = 0; i < words.size(); ++i) {
         const std::string word(words[i]);
         const bool last = i + 1 == words.size();
-        const std::vector<CLI::App*> same = app->get_subcommands([&](const CLI::App* sub) { return sub->get_name() == word; });
+        const std::vector<CLI::App*> same =
+            app->get_subcommands([&](const CLI::App* sub) { return sub->get_name() == word; });
         CLI::App* next = same.empty() ? nullptr : same.front();
         if (!next) next = app->add_subcommand(word, last ? std::string(command.summary) : "One of");
         next->allow_extras();
-        if (!last) next->description(next->get_description() + (next->get_subcommands(nullptr).empty() ? ": " : ", ") + std::string(words[i + 1]));
+        if (!last)
+            next->description(next->get_description() + (next->get_subcommands(nullptr).empty() ? ": " : ", ") +
+                              std::string(words[i + 1]));
         app = next;
     }
     return *app;
 }
 
-void declare(CLI::App& root, Typed& typed, bool& json, bool& print_job) {
+void declare(CLI::App& root, Typed& typed, Arguments& arguments) {
     const Command& command = *typed.command;
     CLI::App& app = subcommand(root, command);
     typed.app = &app;
@@ -99,13 +102,18 @@ void declare(CLI::App& root, Typed& typed, bool& json, bool& print_job) {
     if (command.uses_material) {
         for (const MaterialFlag& flag : material_flags)
             addOption(app, flagOf(flag.name), typed.material[flag.name], flag.doc, "Material");
-        app.add_option("--scene", typed.scene, "a scene file, whose material is used")->type_name("")->group("Material");
+        app.add_option("--scene", typed.scene, "a scene file, whose material is used")
+            ->type_name("")
+            ->group("Material");
     }
     if (command.uses_seed) app.add_option("--seed", typed.seed, "of the random walks (default 1)")->type_name("");
     if (!command.output.empty())
         app.add_option("-o,--output", typed.output, std::string(command.output))->type_name("");
-    app.add_flag("--json", json, "print one JSON document");
-    app.add_flag("--print-job", print_job, "print the job file for `searchlight run` and stop");
+    app.add_flag("--json", arguments.json, "print one JSON document");
+    app.add_flag("--print-job", arguments.print_job, "print the job file for `searchlight run` and stop");
+    const bool reads_models = std::ranges::any_of(
+        command.options, [](const Param& param) { return param.name == "model" || param.name == "models"; });
+    if (reads_models) app.add_flag("--watch", arguments.watch, "run again whenever a model file changes, until Ctrl+C");
 }
 
 const std::string* lastOf(const std::map<std::string, std::vector<std::string>, std::less<>>& typed,
@@ -122,7 +130,8 @@ void applyMaterial(const Typed& typed, SceneMaterial& material) {
         return std::get<std::vector<double>>(
             parseValue(findParam(section->keys, name, "option"), *lastOf(typed.material, name)));
     };
-    const bool named = lastOf(typed.material, "material"), spelled = lastOf(typed.material, "sigma_s") || lastOf(typed.material, "sigma_a"),
+    const bool named = lastOf(typed.material, "material"),
+               spelled = lastOf(typed.material, "sigma_s") || lastOf(typed.material, "sigma_a"),
                inverted = lastOf(typed.material, "Rdr") || lastOf(typed.material, "ld");
     if (named + spelled + inverted > 1)
         throw usageError("the material is given twice", "one of --material, --sigma-a with --sigma-s, --Rdr with --ld");
@@ -167,7 +176,8 @@ Job jobOf(const Typed& typed) {
     for (const Param& param : typed.command->options) {
         const std::vector<std::string>& values = typed.options.at(param.name);
         if (values.empty()) {
-            if (param.required) throw usageError(fmt::format("{} is missing", flagOf(param.name)), std::string(typed.command->example));
+            if (param.required)
+                throw usageError(fmt::format("{} is missing", flagOf(param.name)), std::string(typed.command->example));
             continue;
         }
         // A list in text, such as --set, may be given piece by piece.
@@ -194,7 +204,8 @@ Error strayError(const CLI::App& app, const std::string& stray, bool has_subcomm
     }
     if (has_subcommands) {
         std::vector<std::string> names;
-        for (const CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; })) names.push_back(sub->get_name());
+        for (const CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; }))
+            names.push_back(sub->get_name());
         return unknownName(ErrorKind::usage, "command", stray, names);
     }
     return usageError(fmt::format("'{}' is one word too many", stray), "see --help");
@@ -203,7 +214,8 @@ Error strayError(const CLI::App& app, const std::string& stray, bool has_subcomm
 }  // namespace
 
 Arguments parseArguments(int argc, char** argv) {
-    CLI::App root("Searchlight: develops, displays, compares and validates models of subsurface scattering.", "searchlight");
+    CLI::App root("Searchlight: develops, displays, compares and validates models of subsurface scattering.",
+                  "searchlight");
     root.set_version_flag("--version", fmt::format("searchlight {}", version()));
     root.set_help_flag("-h,--help", "Say how this is used");
     root.footer("searchlight COMMAND --help says more, with an example.");
@@ -213,7 +225,7 @@ Arguments parseArguments(int argc, char** argv) {
     std::vector<Typed> all(commands().size());
     for (std::size_t i = 0; i < all.size(); ++i) {
         all[i].command = &commands()[i];
-        declare(root, all[i], arguments.json, arguments.print_job);
+        declare(root, all[i], arguments);
     }
     std::string job_path, job_output;
     CLI::App* run_job = root.add_subcommand("run", "Run a job file");
@@ -257,7 +269,8 @@ Arguments parseArguments(int argc, char** argv) {
         }
     if (app != &root) {
         std::vector<std::string> kinds;
-        for (const CLI::App* kind : app->get_subcommands([](const CLI::App*) { return true; })) kinds.push_back(kind->get_name());
+        for (const CLI::App* kind : app->get_subcommands([](const CLI::App*) { return true; }))
+            kinds.push_back(kind->get_name());
         throw usageError(fmt::format("{} of what?", app->get_name()), "valid: " + join(kinds, ", "));
     }
     arguments.text = root.help();

@@ -13,6 +13,7 @@ struct Arguments {
     std::string text;
     bool json = false;       ///< the result's JSON instead of its text
     bool print_job = false;  ///< print the job instead of running it
+    bool watch = false;      ///< run it again whenever one of its model files changes
 };
 
 /// Throws a usage Error for arguments that make no sense.

@@ -3,13 +3,16 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
-#include <exception>
-#include <optional>
+#include <filesystem>
+#include <functional>
+#include <thread>
 
 #include "arguments.h"
 #include "base/error.h"
+#include "job/engine.h"
 #include "job/job.h"
 #include "progress.h"
 
@@ -40,6 +43,31 @@ void print(std::string_view text) {
         throw inputError("cannot write to standard output");
 }
 
+// Runs again whenever a model file of the job changes; a mistake in one is shown, and mended by the next save.
+int watch(const Job& job, const std::function<int()>& runOnce) {
+    namespace fs = std::filesystem;
+    const std::vector<std::string> files = modelFiles(job);
+    if (files.empty()) throw usageError("--watch needs a model file", "such as --models dipole,./my.bssrdf");
+    const auto stamps = [&] {
+        std::vector<fs::file_time_type> times;
+        std::error_code missing;  // an editor may be between deleting and writing
+        for (const std::string& file : files) times.push_back(fs::last_write_time(file, missing));
+        return times;
+    };
+    while (!interrupted) {
+        const auto seen = stamps();
+        try {
+            runOnce();
+            fmt::print(stderr, "watching {}\n", fmt::join(files, ", "));
+        } catch (const Error& error) {
+            if (error.kind == ErrorKind::interrupted) break;
+            fmt::print(stderr, "searchlight: {}\n", error.what());
+        }
+        while (!interrupted && stamps() == seen) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+    return 0;
+}
+
 int runArguments(int argc, char** argv) {
     const Arguments arguments = parseArguments(argc, argv);
     if (!arguments.job) {
@@ -51,10 +79,14 @@ int runArguments(int argc, char** argv) {
         return 0;
     }
     TerminalObserver observer(interrupted);
-    const JobResult result = run(*arguments.job, observer);
-    observer.finish();
-    print(arguments.json ? result.json + "\n" : result.text);
-    return result.passed ? 0 : 1;
+    Engine engine;
+    const auto runOnce = [&] {
+        const JobResult result = run(*arguments.job, engine, observer);
+        observer.finish();
+        print(arguments.json ? result.json + "\n" : result.text);
+        return result.passed ? 0 : 1;
+    };
+    return arguments.watch ? watch(*arguments.job, runOnce) : runOnce();
 }
 
 }  // namespace

@@ -20,12 +20,14 @@ constexpr std::string_view style = R"(
 * { box-sizing: border-box; }
 body { margin: 0; background: var(--paper); color: var(--ink); line-height: 1.55;
        font: 16px/1.55 Charter, "Bitstream Charter", "Sitka Text", Cambria, "DejaVu Serif", Georgia, serif; }
-main { max-width: 46rem; margin: 0 auto; padding: 3.5rem 1.5rem 2rem; }
+main { max-width: 66rem; margin: 0 auto; padding: 3.5rem 1.5rem 2rem; }
 h1 { font-size: 1.9rem; line-height: 1.2; font-weight: 600; margin: 0 0 1rem; text-wrap: balance; }
 h2 { font-size: 1.25rem; font-weight: 600; margin: 3rem 0 .75rem; }
+p, caption { max-width: 46rem; }
 p { margin: 0 0 1rem; hyphens: auto; }
 .summary { font-size: 1.1rem; color: var(--soft); border-left: 3px solid var(--rule); padding-left: 1rem; }
-figure { margin: 1.75rem 0; }
+.figures { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(28rem, 100%), 1fr)); gap: 1.5rem; align-items: start; }
+figure { margin: 0; }
 figure svg { display: block; width: 100%; height: auto; background: #fff; border: 1px solid var(--rule); border-radius: 4px; }
 .wide { overflow-x: auto; margin: 1.75rem 0; }
 table { border-collapse: collapse; width: 100%; border-top: 1.5px solid var(--ink); border-bottom: 1.5px solid var(--ink);
@@ -88,8 +90,10 @@ std::string sectionHtml(const ReportSection& section) {
     if (!section.heading.empty()) html += fmt::format("<h2>{}</h2>\n", escapeXml(section.heading));
     for (const std::string& paragraph : section.paragraphs) html += fmt::format("<p>{}</p>\n", escapeXml(paragraph));
     for (const ReportTable& table : section.tables) html += tableHtml(table);
+    if (!section.figures.empty()) html += "<div class=\"figures\">\n";
     for (const Figure& figure : section.figures)
         html += fmt::format("<figure>\n{}</figure>\n", svgElement(layoutFigure(figure), figure));
+    if (!section.figures.empty()) html += "</div>\n";
     return html + "</section>\n";
 }
 

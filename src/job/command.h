@@ -1,5 +1,5 @@
-// The table of commands. A command is one file command_x.cpp and one row in commands.cpp; command line, job files and the
-// reference page come from its Params.
+// The table of commands. A command is one file command_x.cpp and one row in commands.cpp; command line, job files and
+// the reference page come from its Params.
 #pragma once
 
 #include <span>
@@ -17,10 +17,10 @@ struct Command {
     std::string_view summary;  ///< one line
     std::string_view example;  ///< a whole command line that works
     std::vector<Param> options;
-    std::string_view positional;    ///< the option that may be given without its name; empty: none
-    bool uses_material = false;     ///< takes --material, --sigma-a ... (scene.material)
-    bool uses_seed = false;         ///< takes --seed
-    std::string_view output;        ///< what -o writes ("figure: .svg, .png, .pdf or .csv"); empty: no -o
+    std::string_view positional;  ///< the option that may be given without its name; empty: none
+    bool uses_material = false;   ///< takes --material, --sigma-a ... (scene.material)
+    bool uses_seed = false;       ///< takes --seed
+    std::string_view output;      ///< what -o writes ("figure: .svg, .png, .pdf or .csv"); empty: no -o
     JobResult (*run)(const Job& job, Engine& engine, Observer& observer);
 };
 

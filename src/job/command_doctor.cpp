@@ -1,6 +1,6 @@
 // doctor: what this machine has, what is missing, and what mends it.
-#include <fmt/format.h>
 #include <fmt/core.h>
+#include <fmt/format.h>
 
 #include "base/parallel.h"
 #include "base/text.h"
@@ -49,26 +49,32 @@ JobResult runDoctor(const Job& job, Engine&, Observer&) {
             json["renderer"] = report.info.renderer;
             json["version"] = report.info.version;
             json["hardware"] = report.info.hardware;
-            line(true, "OpenGL", fmt::format("{}: {}, {}{}", report.platform, report.info.renderer, report.info.version,
-                                             report.info.hardware ? "" : " (software)"));
+            line(true, "OpenGL",
+                 fmt::format("{}: {}, {}{}", report.platform, report.info.renderer, report.info.version,
+                             report.info.hardware ? "" : " (software)"));
         } else {
             json["problem"] = report.problem;
             json["hint"] = report.hint;
-            line(false, "OpenGL", fmt::format("{}: {}{}", report.platform, report.problem,
-                                              report.hint.empty() ? "" : "\n                " + report.hint));
+            line(false, "OpenGL",
+                 fmt::format("{}: {}{}", report.platform, report.problem,
+                             report.hint.empty() ? "" : "\n                " + report.hint));
         }
         document["gl"].push_back(std::move(json));
     }
     if (!any)
-        result.text += "   Without OpenGL the shipped models still run on the CPU; models of your own need it:\n"
-                       "   apt-get install libegl1 libgl1-mesa-dri libopengl0 libepoxy0\n";
+        result.text +=
+            "   Without OpenGL the shipped models still run on the CPU; models of your own need it:\n"
+            "   apt-get install libegl1 libgl1-mesa-dri libopengl0 libepoxy0\n";
     const std::vector<std::string> formats = figureFormats();
     const bool qt = std::find(formats.begin(), formats.end(), ".pdf") != formats.end();
-    line(qt, "figures", join(formats, ", ") +
-                            (qt ? "" : "\n                .png and .pdf: apt-get install qt6-base-dev qt6-svg-dev, build with "
-                                       "SEARCHLIGHT_QT=ON"));
-    line(true, "libraries", fmt::format("fmt {}.{}, nlohmann-json {}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100,
-                                        NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR));
+    line(qt, "figures",
+         join(formats, ", ") +
+             (qt ? ""
+                 : "\n                .png and .pdf: apt-get install qt6-base-dev qt6-svg-dev, build with "
+                   "SEARCHLIGHT_QT=ON"));
+    line(true, "libraries",
+         fmt::format("fmt {}.{}, nlohmann-json {}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100,
+                     NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR));
     document["instruction_sets"] = sets;
     document["threads"] = hardwareThreads();
     document["figure_formats"] = formats;

@@ -58,7 +58,8 @@ JobResult runInvert(const Job& job, Engine& engine, Observer& observer) {
     result.text = fmt::format("{}: ld is 1/sigma_tr with the {} diffusion coefficient; Rdr through {}\n",
                               loaded.model.file.title, inversion.mean_free_path,
                               inversion.from_profile ? "the integral of the profile" : "DiffuseReflectance");
-    result.text += fmt::format("{:>3} {:>12} {:>14} {:>14} {:>12}\n", "", "alpha'", "sigma_a 1/mm", "sigma_s' 1/mm", "Rdr");
+    result.text +=
+        fmt::format("{:>3} {:>12} {:>14} {:>14} {:>12}\n", "", "alpha'", "sigma_a 1/mm", "sigma_s' 1/mm", "Rdr");
     for (int c = 0; c < target.channels; ++c) {
         result.text += fmt::format("{:>3} {:>12.6g} {:>14.6g} {:>14.6g} {:>12.6g}\n",
                                    target.channels == 1 ? "" : channelName(medium, c), inversion.alpha_prime[c],

@@ -12,7 +12,7 @@ namespace searchlight {
 
 namespace {
 
-Json estimatesJson(const ReferenceRun& run, Estimate HalfSpaceTally::* member, HalfSpaceTally HalfSpaceResult::* order) {
+Json estimatesJson(const ReferenceRun& run, Estimate HalfSpaceTally::*member, HalfSpaceTally HalfSpaceResult::*order) {
     Json mean = Json::array(), error = Json::array();
     for (int c = 0; c < run.medium.channels; ++c) {
         const auto& walked = run.channels[static_cast<std::size_t>(c)];
@@ -22,8 +22,8 @@ Json estimatesJson(const ReferenceRun& run, Estimate HalfSpaceTally::* member, H
     return {{"mean", mean}, {"stderr", error}};
 }
 
-Json rowsJson(const ReferenceRun& run, std::vector<double> HalfSpaceTally::* member,
-              HalfSpaceTally HalfSpaceResult::* order) {
+Json rowsJson(const ReferenceRun& run, std::vector<double> HalfSpaceTally::*member,
+              HalfSpaceTally HalfSpaceResult::*order) {
     Json rows = Json::array();
     for (int c = 0; c < run.medium.channels; ++c) {
         const auto& walked = run.channels[static_cast<std::size_t>(c)];
@@ -33,7 +33,7 @@ Json rowsJson(const ReferenceRun& run, std::vector<double> HalfSpaceTally::* mem
 }
 
 // The tallies of one order of scattering.
-Json tallyJson(const ReferenceRun& run, HalfSpaceTally HalfSpaceResult::* order, int grid, double grid_extent_mm) {
+Json tallyJson(const ReferenceRun& run, HalfSpaceTally HalfSpaceResult::*order, int grid, double grid_extent_mm) {
     Json tally;
     tally["diffuse"] = estimatesJson(run, &HalfSpaceTally::total, order);
     tally["profile"] = {{"edges_mm", run.edges_mm},
@@ -118,18 +118,19 @@ JobResult runReferenceHalfSpace(const Job& job, Engine& engine, Observer& observ
 
     JobResult result;
     result.json = document.dump(1);
-    result.text = fmt::format("{}, {:.3g} walks per channel, {} deg, per unit incident flux\n{:<4} {:>9}  {:>22}  {:>22}  {:>22}\n",
-                              subject.name, static_cast<double>(any->walks), run.angle_deg, "", "specular", "diffuse",
-                              "single", "multiple");
+    result.text = fmt::format(
+        "{}, {:.3g} walks per channel, {} deg, per unit incident flux\n{:<4} {:>9}  {:>22}  {:>22}  {:>22}\n",
+        subject.name, static_cast<double>(any->walks), run.angle_deg, "", "specular", "diffuse", "single", "multiple");
     for (int c = 0; c < run.medium.channels; ++c) {
         const auto& walked = run.channels[static_cast<std::size_t>(c)];
         if (!walked) {
-            result.text += fmt::format("{:<4} not applicable: this channel does not scatter\n", channelName(run.medium, c));
+            result.text +=
+                fmt::format("{:<4} not applicable: this channel does not scatter\n", channelName(run.medium, c));
             continue;
         }
-        result.text += fmt::format("{:<4} {:>9.6f}  {:>22}  {:>22}  {:>22}\n", channelName(run.medium, c), walked->specular,
-                                   estimateText(walked->all.total), estimateText(walked->single.total),
-                                   estimateText(walked->multiple.total));
+        result.text += fmt::format("{:<4} {:>9.6f}  {:>22}  {:>22}  {:>22}\n", channelName(run.medium, c),
+                                   walked->specular, estimateText(walked->all.total),
+                                   estimateText(walked->single.total), estimateText(walked->multiple.total));
     }
     result.text += fmt::format("{:.3g} walks/s on {} threads ({}), {:.3g} s; the profile is in --json\n",
                                static_cast<double>(run.walks()) / run.seconds(), any->threads, any->instruction_set,

@@ -32,10 +32,12 @@ struct NamedFigure {
 struct Judged {
     std::string label;
     std::string id;
+    bool reads_medium = true;
     std::vector<CurveError> errors;  // per scattering channel
     std::vector<double> totals, true_totals, true_errors;
 
-    double worst() const {
+    /// Error of R_d, mean over the channels.
+    double error() const {
         double sum = 0;
         for (const CurveError& error : errors) sum += error.weighted;
         return errors.empty() ? 0 : sum / static_cast<double>(errors.size());
@@ -56,7 +58,7 @@ std::vector<Judged> judge(std::vector<LoadedModel>& models, const std::vector<Pe
                           const PencilReference& reference, const ReferenceRun& run, double entry) {
     std::vector<Judged> judged;
     for (std::size_t m = 0; m < models.size(); ++m) {
-        Judged row{.label = curves[m].label, .id = models[m].model.id};
+        Judged row{.label = curves[m].label, .id = models[m].model.id, .reads_medium = readsMedium(models[m].model)};
         const Rgb total = entry * totalRd(*models[m].evaluator, models[m].model, run.medium, run.angle_deg);
         for (const int c : scatteringChannels(run.medium)) {
             const double mean_free_path = 1 / run.medium.sigmaTp()[c];
@@ -69,7 +71,8 @@ std::vector<Judged> judge(std::vector<LoadedModel>& models, const std::vector<Pe
         }
         judged.push_back(std::move(row));
     }
-    std::stable_sort(judged.begin(), judged.end(), [](const Judged& a, const Judged& b) { return a.worst() < b.worst(); });
+    std::stable_sort(judged.begin(), judged.end(),
+                     [](const Judged& a, const Judged& b) { return a.error() < b.error(); });
     return judged;
 }
 
@@ -98,18 +101,20 @@ ReportSection materialSection(const Subject& subject) {
 ReportSection errorSection(const std::vector<Judged>& judged, const ReferenceRun& run) {
     ReportSection section{.heading = "Errors"};
     ReportTable table{
-        .caption = "Error of R_d: integral of |model - reference| 2 pi r dr over that of the reference, whole, and apart "
-                   "for r below and above one reduced mean free path. Noise: what the reference's own standard error "
-                   "alone would give. Total: total diffuse reflectance per unit incident flux against the reference.",
-        .header = {"model", "channel", "error of R_d", "near", "far", "noise", "total", "reference total", "difference"}};
+        .caption =
+            "Error of R_d: ∫ |model − reference| 2πr dr over ∫ reference 2πr dr; near and far are the same below and "
+            "above one reduced mean free path. Noise: what a perfect model would show, from the reference's own "
+            "standard error. Total: diffuse reflectance per unit incident flux, and its difference from the "
+            "reference. Fixed: a profile in mm that does not follow the medium.",
+        .header = {"model", "channel", "error of R_d", "near", "far", "noise", "total", "reference", "difference"}};
     const std::vector<int> channels = scatteringChannels(run.medium);
     for (const Judged& row : judged)
         for (std::size_t i = 0; i < channels.size(); ++i) {
             const CurveError& error = row.errors[i];
-            table.rows.push_back({i == 0 ? row.label : "", channelName(run.medium, channels[i]), percent(error.weighted),
-                                  percent(error.near), percent(error.far), percent(error.noise),
-                                  fmt::format("{:.4f}", row.totals[i]),
-                                  fmt::format("{:.5f} ± {:.5f}", row.true_totals[i], row.true_errors[i]),
+            table.rows.push_back({i == 0 ? row.label + (row.reads_medium ? "" : " (fixed)") : "",
+                                  channelName(run.medium, channels[i]), percent(error.weighted), percent(error.near),
+                                  percent(error.far), percent(error.noise), fmt::format("{:.4f}", row.totals[i]),
+                                  fmt::format("{:.4f}", row.true_totals[i]),
                                   signedPercent(row.totals[i] / row.true_totals[i] - 1)});
         }
     section.tables.push_back(std::move(table));
@@ -118,8 +123,9 @@ ReportSection errorSection(const std::vector<Judged>& judged, const ReferenceRun
 
 ReportSection referenceSection(const ReferenceRun& run, std::uint64_t seed) {
     ReportSection section{.heading = "Reference"};
-    ReportTable table{.caption = "Unbiased Monte Carlo of a pencil beam on a half-space, smooth Fresnel boundary, "
-                                 "Henyey-Greenstein phase function; fractions of the incident flux, with one standard error.",
+    ReportTable table{.caption =
+                          "Unbiased Monte Carlo of a pencil beam on a half-space, smooth Fresnel boundary, "
+                          "Henyey-Greenstein phase function; fractions of the incident flux, with one standard error.",
                       .header = {"channel", "specular", "diffuse", "single", "multiple", "walks", "walks/s"}};
     for (int c = 0; c < run.medium.channels; ++c) {
         const auto& walked = run.channels[static_cast<std::size_t>(c)];
@@ -141,8 +147,9 @@ ReportSection referenceSection(const ReferenceRun& run, std::uint64_t seed) {
 
 ReportSection modelSection(const std::vector<LoadedModel>& models) {
     ReportSection section{.heading = "Models"};
-    ReportTable table{.caption = "Single: whether the model's R_d includes light scattered once, as the reference does.",
-                      .header = {"model", "single", "evaluated on", "source", "validity"}};
+    ReportTable table{
+        .caption = "Single: whether the model's R_d includes light scattered once, as the reference does.",
+        .header = {"model", "single", "evaluated on", "source", "validity"}};
     for (const LoadedModel& loaded : models)
         table.rows.push_back({loaded.model.file.title, loaded.model.file.single_scattering ? "yes" : "no",
                               loaded.evaluator->backend(), loaded.model.file.citation, loaded.model.file.validity});
@@ -150,13 +157,19 @@ ReportSection modelSection(const std::vector<LoadedModel>& models) {
     return section;
 }
 
+// Ranks the models that follow the medium; a fixed profile is beside the point on another material.
 std::string summaryOf(const std::vector<Judged>& judged, const Subject& subject) {
-    std::string text = fmt::format("On {}, ", subject.name);
-    const Judged& best = judged.front();
-    text += fmt::format("{} is closest to the reference: its R_d is off by {} of the diffuse reflectance on average over "
-                        "the channels",
-                        best.label, percent(best.worst()));
-    if (judged.size() > 1) text += fmt::format(", against {} for {}, the furthest", percent(judged.back().worst()), judged.back().label);
+    std::vector<const Judged*> ranked;
+    for (const Judged& row : judged)
+        if (row.reads_medium) ranked.push_back(&row);
+    if (ranked.empty()) return fmt::format("No model here follows the medium of {}.", subject.name);
+    const Judged& best = *ranked.front();
+    std::string text = fmt::format(
+        "On {}, {} is closest to the reference: its R_d is off by {} of the diffuse reflectance, "
+        "averaged over the channels",
+        subject.name, best.label, percent(best.error()));
+    if (ranked.size() > 1)
+        text += fmt::format("; {} is furthest, with {}", ranked.back()->label, percent(ranked.back()->error()));
     return text + ".";
 }
 
@@ -181,13 +194,15 @@ std::vector<NamedFigure> figuresOf(const std::vector<PencilCurve>& curves, const
 }
 
 std::string errorsCsv(const std::vector<Judged>& judged, const Medium& medium) {
-    std::string csv = "model,channel,weighted_error,near,far,noise,relative_rms,total,reference_total,reference_stderr\n";
+    std::string csv =
+        "model,channel,weighted_error,near,far,noise,relative_rms,total,reference_total,reference_stderr\n";
     const std::vector<int> channels = scatteringChannels(medium);
     for (const Judged& row : judged)
         for (std::size_t i = 0; i < channels.size(); ++i) {
             const CurveError& e = row.errors[i];
-            csv += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", row.id, channelName(medium, channels[i]), e.weighted, e.near,
-                               e.far, e.noise, e.relative_rms, row.totals[i], row.true_totals[i], row.true_errors[i]);
+            csv += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", row.id, channelName(medium, channels[i]), e.weighted,
+                               e.near, e.far, e.noise, e.relative_rms, row.totals[i], row.true_totals[i],
+                               row.true_errors[i]);
         }
     return csv;
 }
@@ -220,7 +235,8 @@ JobResult runReport(const Job& job, Engine& engine, Observer& observer) {
     const std::uint64_t albedo_walks = static_cast<std::uint64_t>(options.number("albedo_walks"));
     const AlbedoData albedo = albedoData(medium.eta, 0, options.names("models"), albedo_walks, job.seed,
                                          options.text("backend"), engine, observer);
-    figures.push_back({"albedo", albedoFigure(albedo.models, albedo.reference ? &*albedo.reference : nullptr, medium.eta)});
+    figures.push_back(
+        {"albedo", albedoFigure(albedo.models, albedo.reference ? &*albedo.reference : nullptr, medium.eta)});
 
     Report report;
     report.title = fmt::format("{}: models beside the reference", subject.name);
@@ -244,7 +260,8 @@ JobResult runReport(const Job& job, Engine& engine, Observer& observer) {
     document["material"] = subjectJson(subject);
     document["models"] = Json::array();
     JobResult result;
-    result.text = report.summary + "\n\n" + fmt::format("{:<44} {:>12} {:>10} {:>10}\n", "model", "error of R_d", "noise", "total");
+    result.text = report.summary + "\n\n" +
+                  fmt::format("{:<44} {:>12} {:>10} {:>10}\n", "model", "error of R_d", "noise", "total");
     for (const Judged& row : judged) {
         Json channels = Json::array();
         for (std::size_t i = 0; i < row.errors.size(); ++i)
@@ -256,9 +273,10 @@ JobResult runReport(const Job& job, Engine& engine, Observer& observer) {
                                 {"total", row.totals[i]},
                                 {"reference_total", row.true_totals[i]},
                                 {"reference_stderr", row.true_errors[i]}});
-        document["models"].push_back({{"id", row.id}, {"label", row.label}, {"error", row.worst()}, {"channels", channels}});
+        document["models"].push_back(
+            {{"id", row.id}, {"label", row.label}, {"error", row.error()}, {"channels", channels}});
         const auto off = row.totals[0] / row.true_totals[0] - 1;
-        result.text += fmt::format("{:<44} {:>12} {:>10} {:>10}\n", row.label, percent(row.worst()),
+        result.text += fmt::format("{:<44} {:>12} {:>10} {:>10}\n", row.label, percent(row.error()),
                                    percent(row.errors[0].noise), signedPercent(off));
     }
     document["page"] = (folder / "index.html").string();

@@ -72,7 +72,8 @@ ReferenceRun runReference(const Medium& medium, const ReferenceOptions& options,
         walk.grid = options.grid;
         walk.grid_extent_mm = options.grid_extent_mm;
         walk.threads = options.threads;
-        run.channels[static_cast<std::size_t>(c)] = walkHalfSpace(halfSpaceProblem(medium, c, options.angle_deg), walk, observer);
+        run.channels[static_cast<std::size_t>(c)] =
+            walkHalfSpace(halfSpaceProblem(medium, c, options.angle_deg), walk, observer);
     }
     return run;
 }
@@ -98,7 +99,8 @@ PencilCurve modelCurve(LoadedModel& loaded, double angle_deg, const std::vector<
     for (const auto& [name, value] : loaded.parameters) curve.label += fmt::format(", {} {}", name, valueText(value));
     curve.x_mm = radii_mm;
     curve.Rd = radialRd(*loaded.evaluator, loaded.model, loaded.medium, angle_deg, radii_mm);
-    if (!edges_mm.empty()) curve.bin_means = annulusMeans(*loaded.evaluator, loaded.model, loaded.medium, angle_deg, edges_mm);
+    if (!edges_mm.empty())
+        curve.bin_means = annulusMeans(*loaded.evaluator, loaded.model, loaded.medium, angle_deg, edges_mm);
     for (auto* values : {&curve.Rd, &curve.bin_means})
         for (Rgb& value : *values)
             for (int c = 0; c < Rgb::channels; ++c)

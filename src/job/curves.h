@@ -47,8 +47,8 @@ std::vector<LoadedModel> loadModels(const std::vector<std::string>& names, std::
 PencilCurve modelCurve(LoadedModel& loaded, double angle_deg, const std::vector<double>& radii_mm,
                        const std::vector<double>& edges_mm);
 
-/// Edges of `bins` annuli up to r_max (0: chosen from the medium), growing quadratically so that the steep part near the
-/// beam is resolved.
+/// Edges of `bins` annuli up to r_max (0: chosen from the medium), growing quadratically so that the steep part near
+/// the beam is resolved.
 std::vector<double> plotEdges(const Medium& medium, double r_max_mm, int bins);
 
 /// `count` radii from 3e-5 r_max, which no axis tells from 0, to r_max, logarithmic, for smooth curves.

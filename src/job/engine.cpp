@@ -20,9 +20,9 @@ std::unique_ptr<Evaluator> Engine::makeEvaluator(const Model& model, std::string
     if (model.measured) return makeMeasuredEvaluator(model);
     const bool native = hasNativeEvaluator(model);
     if (backend == "cpu" && !native)
-        throw usageError(fmt::format("model '{}' has no native evaluator: only shipped models are compiled for the CPU",
-                                     model.id),
-                         "use --backend gl or auto");
+        throw usageError(
+            fmt::format("model '{}' has no native evaluator: only shipped models are compiled for the CPU", model.id),
+            "use --backend gl or auto");
     if (backend == "gl" || !native) return makeGlEvaluator(model, context());
     return makeNativeEvaluator(model);
 }

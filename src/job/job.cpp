@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <filesystem>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -25,7 +27,8 @@ void checkFormat(const JsonText& text) {
     if (format == root.end()) throw text.error("", "no format", "expected \"format\": \"searchlight-job/1\"");
     const std::string name = format->is_string() ? format->get<std::string>() : format->dump();
     if (name == fmt::format("{}{}", format_name, format_version)) return;
-    if (!name.starts_with(format_name)) throw text.error("/format", fmt::format("'{}' is no job", name), "expected searchlight-job/1");
+    if (!name.starts_with(format_name))
+        throw text.error("/format", fmt::format("'{}' is no job", name), "expected searchlight-job/1");
     const std::optional<double> version = parseNumber(std::string_view(name).substr(format_name.size()));
     if (version && *version > format_version)
         throw text.error("/format", fmt::format("'{}' is newer than this program", name), "it reads searchlight-job/1");
@@ -64,7 +67,9 @@ Job parseJob(std::string_view source, std::string_view path) {
             throw text.errorAtKey(pointerStep(key), unknown.message, unknown.hint);
         }
     const auto need = [&](const char* key, bool fits, std::string_view expected) {
-        if (!fits) throw text.error(std::string("/") + key, fmt::format("{} is no {}", root[key].dump(), key), std::string(expected));
+        if (!fits)
+            throw text.error(std::string("/") + key, fmt::format("{} is no {}", root[key].dump(), key),
+                             std::string(expected));
     };
     Job job;
     if (!root.contains("command")) throw text.error("", "no command", "such as \"command\": \"profile\"");
@@ -114,7 +119,24 @@ std::string jobJson(const Job& job) {
 
 JobResult run(const Job& job, Observer& observer) {
     Engine engine;
+    return run(job, engine, observer);
+}
+
+JobResult run(const Job& job, Engine& engine, Observer& observer) {
     return findCommand(job.command).run(job, engine, observer);
+}
+
+std::vector<std::string> modelFiles(const Job& job) {
+    std::vector<std::string> files;
+    for (const char* option : {"model", "models", "solo"}) {
+        const auto given = job.options.find(option);
+        if (given == job.options.end()) continue;
+        for (const std::string_view name : split(std::get<std::string>(given->second), ',')) {
+            const std::string path(trim(name.substr(0, name.find(':'))));
+            if (std::filesystem::is_regular_file(path)) files.push_back(path);
+        }
+    }
+    return files;
 }
 
 }  // namespace searchlight

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/observer.h"
 #include "base/param.h"
@@ -28,12 +29,19 @@ Job parseJob(std::string_view text, std::string_view path);
 std::string jobJson(const Job& job);
 
 struct JobResult {
-    std::string text;  ///< for people
-    std::string json;  ///< for machines; one document
-    bool passed = true;///< false: a check failed (exit code 1)
+    std::string text;    ///< for people
+    std::string json;    ///< for machines; one document
+    bool passed = true;  ///< false: a check failed (exit code 1)
 };
 
-/// Does the work. Files are written only when all of it succeeded. Throws Error.
+class Engine;
+
+/// Does the work. Files are written only when all of it succeeded. Throws Error. An engine that is kept spares the next
+/// job the start of OpenGL.
 JobResult run(const Job& job, Observer& observer);
+JobResult run(const Job& job, Engine& engine, Observer& observer);
+
+/// The model files that the job reads: what to watch for changes.
+std::vector<std::string> modelFiles(const Job& job);
 
 }  // namespace searchlight

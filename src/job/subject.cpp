@@ -35,10 +35,11 @@ Subject invertedSubject(const SceneMaterial& material, const SceneModel& scene_m
                     .medium = inversion.medium};
     for (int c = 0; c < target.channels; ++c)
         if (!inversion.reached[static_cast<std::size_t>(c)])
-            subject.notes.push_back(fmt::format("Rdr {} cannot be reached by {} at eta {}: it goes from {:.4g} to {:.4g}; "
-                                                "the nearest, {:.4g}, is used.",
-                                                target.Rdr[c], model.id, target.eta, inversion.reachable_min[c],
-                                                inversion.reachable_max[c], inversion.achieved[c]));
+            subject.notes.push_back(
+                fmt::format("Rdr {} cannot be reached by {} at eta {}: it goes from {:.4g} to {:.4g}; "
+                            "the nearest, {:.4g}, is used.",
+                            target.Rdr[c], model.id, target.eta, inversion.reachable_min[c], inversion.reachable_max[c],
+                            inversion.achieved[c]));
     return subject;
 }
 
@@ -69,8 +70,9 @@ Subject subjectOf(const Job& job, Engine& engine) {
 Subject comparableSubjectOf(const Job& job, Engine& engine) {
     Subject subject = subjectOf(job, engine);
     if (!subject.comparable)
-        throw inputError(fmt::format("the table of {} does not state its unit, so nothing is compared on it", subject.id),
-                         "give --sigma-a and --sigma-s in 1/mm if you know it");
+        throw inputError(
+            fmt::format("the table of {} does not state its unit, so nothing is compared on it", subject.id),
+            "give --sigma-a and --sigma-s in 1/mm if you know it");
     return subject;
 }
 

@@ -10,9 +10,9 @@
 namespace searchlight {
 
 struct Subject {
-    std::string name;                ///< for titles: "Skin1", or "sigma_a 0.0041, sigma_s 2.62 ..."
-    std::string id;                  ///< "skin1", or "custom"
-    std::string source;              ///< table, or "given"
+    std::string name;    ///< for titles: "Skin1", or "sigma_a 0.0041, sigma_s 2.62 ..."
+    std::string id;      ///< "skin1", or "custom"
+    std::string source;  ///< table, or "given"
     Medium medium;
     std::vector<std::string> notes;  ///< what a reader must know: reduced coefficients, unreachable targets...
     bool comparable = true;          ///< false: its table states no unit

@@ -5,6 +5,7 @@
 #include "base/embedded.h"
 #include "base/error.h"
 #include "base/files.h"
+#include "language/tokens.h"
 #include "model/measured_file.h"
 
 namespace searchlight {
@@ -31,6 +32,14 @@ Model parseModel(std::string_view text, std::string_view path) {
 bool isPath(std::string_view text) { return text.find_first_of("/\\.") != std::string_view::npos; }
 
 }  // namespace
+
+bool readsMedium(const Model& model) {
+    for (const BssrdfSection* section : {&model.file.initializer, &model.file.shader})
+        for (const Token& token : tokenize(section->text, section->first_line))
+            if (token.text == "SigmaA" || token.text == "SigmaS" || token.text == "G" || token.text == "IOR")
+                return true;
+    return false;
+}
 
 const std::vector<Model>& shippedModels() {
     static const std::vector<Model> models = [] {

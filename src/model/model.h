@@ -25,6 +25,9 @@ struct Model {
     Profile profile;  ///< measured only, per transmitted flux
 };
 
+/// Whether the model's value can depend on the medium: false for measured profiles and for fits in mm.
+bool readsMedium(const Model& model);
+
 /// The models inside the executable, in menu order.
 const std::vector<Model>& shippedModels();
 

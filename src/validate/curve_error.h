@@ -8,7 +8,8 @@
 namespace searchlight {
 
 struct CurveError {
-    /// Integral of |model - reference| 2 pi r dr over integral of reference 2 pi r dr: the error as a renderer feels it.
+    /// Integral of |model - reference| 2 pi r dr over integral of reference 2 pi r dr: the error as a renderer feels
+    /// it.
     double weighted = 0;
     double near = 0;  ///< the same over annuli whose middle lies below the split radius
     double far = 0;   ///< and above it

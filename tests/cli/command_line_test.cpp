@@ -84,7 +84,8 @@ TEST_F(Program, ReferenceHasItsParts) {
     EXPECT_GT(reference.at("seconds").get<double>(), 0);
     EXPECT_GE(reference.at("threads").get<int>(), 1);
     EXPECT_EQ(reference.at("profile").at("edges_mm").size(), 8u);
-    const double all = reference.at("diffuse").at("mean").at(0), single = reference.at("single").at("diffuse").at("mean").at(0),
+    const double all = reference.at("diffuse").at("mean").at(0),
+                 single = reference.at("single").at("diffuse").at("mean").at(0),
                  multiple = reference.at("multiple").at("diffuse").at("mean").at(0);
     EXPECT_NEAR(all, single + multiple, 1e-12);
     for (const json* order : {&reference, &reference.at("single"), &reference.at("multiple")}) {
@@ -94,7 +95,8 @@ TEST_F(Program, ReferenceHasItsParts) {
 }
 
 TEST_F(Program, ReferenceDoesNotDependOnThreads) {
-    const std::string arguments = "reference halfspace --material marble --walks 2e5 --seed 5 --bins 20 --radii-max 10 --json";
+    const std::string arguments =
+        "reference halfspace --material marble --walks 2e5 --seed 5 --bins 20 --radii-max 10 --json";
     json one = json::parse(run(arguments + " --threads 1").out), two = json::parse(run(arguments + " --threads 2").out);
     for (const char* key : {"diffuse", "profile", "single", "multiple"}) EXPECT_EQ(one.at(key), two.at(key)) << key;
 }
@@ -108,7 +110,8 @@ TEST_F(Program, AJobFileRepeatsItsCommandLine) {
 }
 
 TEST_F(Program, PlotWritesWhatItIsAskedFor) {
-    const Output output = run("plot pencil --material skin1 --models dipole,better_dipole:Moments=exact --reference-walks 1e5 -o pencil.svg");
+    const Output output = run(
+        "plot pencil --material skin1 --models dipole,better_dipole:Moments=exact --reference-walks 1e5 -o pencil.svg");
     EXPECT_EQ(output.exit_code, 0) << output.err;
     const std::string svg = readFile(folder() / "pencil.svg");
     EXPECT_THAT(svg, testing::HasSubstr("Classical dipole"));
@@ -139,7 +142,8 @@ TEST_F(Program, ReportIsSelfContained) {
 
 TEST_F(Program, AnInterruptedWalkExitsWith130AndLeavesNoFile) {
     // Through a shell of its own: timeout sends what Ctrl+C sends.
-    const std::string command = "cd '" + folder().string() + "' && timeout -s INT 0.5 '" SEARCHLIGHT_PROGRAM
+    const std::string command = "cd '" + folder().string() +
+                                "' && timeout -s INT 0.5 '" SEARCHLIGHT_PROGRAM
                                 "' reference halfspace --material marble --walks 1e12 -o ref.json >/dev/null 2>.err; "
                                 "[ $? -eq 124 ] && cat .err | grep -q interrupted; echo $? >code; rm .err";
     ASSERT_EQ(std::system(command.c_str()), 0);

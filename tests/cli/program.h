@@ -29,8 +29,8 @@ protected:
 
     /// `arguments` as a shell reads them; the working directory is folder().
     Output run(const std::string& arguments) const {
-        const std::string command = "cd '" + folder_.string() + "' && '" SEARCHLIGHT_PROGRAM "' " + arguments +
-                                    " >.out 2>.err </dev/null";
+        const std::string command =
+            "cd '" + folder_.string() + "' && '" SEARCHLIGHT_PROGRAM "' " + arguments + " >.out 2>.err </dev/null";
         const int status = std::system(command.c_str());
         Output output;
         output.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
@@ -46,7 +46,8 @@ protected:
     /// Files that runs left behind.
     std::size_t fileCount() const {
         std::size_t count = 0;
-        for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_)) count += entry.is_regular_file();
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_))
+            count += entry.is_regular_file();
         return count;
     }
 

@@ -1,5 +1,5 @@
-// Job files are not trusted: whatever the bytes, the answer is a job or an Error; a job that was read is written and read
-// back unchanged.
+// Job files are not trusted: whatever the bytes, the answer is a job or an Error; a job that was read is written and
+// read back unchanged.
 #include <cstdint>
 #include <cstdlib>
 

@@ -29,7 +29,8 @@ TEST(Job, ReadsBackAsWritten) {
 
 TEST(Job, EveryCommandHasAnExampleThatNamesIt) {
     for (const Command& command : commands()) {
-        EXPECT_TRUE(std::string(command.example).starts_with("searchlight " + std::string(command.name))) << command.name;
+        EXPECT_TRUE(std::string(command.example).starts_with("searchlight " + std::string(command.name)))
+            << command.name;
         EXPECT_FALSE(command.summary.empty()) << command.name;
         EXPECT_NE(command.run, nullptr) << command.name;
         for (const Param& param : command.options) EXPECT_FALSE(param.doc.empty()) << command.name << " " << param.name;
