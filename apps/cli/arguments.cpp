@@ -54,13 +54,14 @@ constexpr MaterialFlag material_flags[] = {
     {"sigma_s", "scattering coefficient, not reduced [1/mm]"},
     {"g", "mean cosine of the phase function (default 0)"},
     {"eta", "refractive index, inside over outside (default 1.3)"},
-    {"Rdr", "total diffuse reflectance, inverted by the dipole, with --ld"},
+    {"Rdr", "total diffuse reflectance, inverted by --model or the dipole, with --ld"},
     {"ld", "diffuse mean free path [mm]"},
+    {"material_scale", "lengths of the medium times this, coefficients divided by it (default 1)"},
 };
 
-void addOption(CLI::App& app, const std::string& name, std::vector<std::string>& into, const std::string& doc,
-               const std::string& group = "Options") {
-    app.add_option(name, into, doc)
+CLI::Option* addOption(CLI::App& app, const std::string& name, std::vector<std::string>& into, const std::string& doc,
+                       const std::string& group = "Options") {
+    return app.add_option(name, into, doc)
         ->group(group)
         ->type_name("")
         ->type_size(1)
@@ -97,7 +98,9 @@ void declare(CLI::App& root, Typed& typed, Arguments& arguments) {
     for (const Param& param : command.options) {
         std::string names = flagOf(param.name);
         if (param.name == command.positional) names += "," + param.name;
-        addOption(app, names, typed.options[param.name], describe(param));
+        CLI::Option* option = addOption(app, names, typed.options[param.name], describe(param));
+        // A toggle is on where it stands alone.
+        if (param.type == ParamType::toggle) option->expected(0, 1)->default_str("true");
     }
     if (command.uses_material) {
         for (const MaterialFlag& flag : material_flags)
@@ -116,63 +119,69 @@ void declare(CLI::App& root, Typed& typed, Arguments& arguments) {
     if (reads_models) app.add_flag("--watch", arguments.watch, "run again whenever a model file changes, until Ctrl+C");
 }
 
-const std::string* lastOf(const std::map<std::string, std::vector<std::string>, std::less<>>& typed,
-                          std::string_view name) {
-    const auto found = typed.find(name);
-    return found == typed.end() || found->second.empty() ? nullptr : &found->second.back();
-}
+// The material flags of a command line, each read as the scene format reads its key.
+class MaterialFlags {
+public:
+    explicit MaterialFlags(const Typed& typed) : typed_(typed.material) {}
 
-// The material flags, read as the scene format reads its keys.
-void applyMaterial(const Typed& typed, SceneMaterial& material) {
-    const std::vector<SceneSection>& sections = sceneSections();
-    const auto section = std::ranges::find(sections, "material", &SceneSection::name);
-    const auto list = [&](const char* name) {
-        return std::get<std::vector<double>>(
-            parseValue(findParam(section->keys, name, "option"), *lastOf(typed.material, name)));
-    };
-    const bool named = lastOf(typed.material, "material"),
-               spelled = lastOf(typed.material, "sigma_s") || lastOf(typed.material, "sigma_a"),
-               inverted = lastOf(typed.material, "Rdr") || lastOf(typed.material, "ld");
+    bool has(std::string_view name) const { return find(name) != nullptr; }
+    const std::string& text(std::string_view name) const { return *find(name); }
+    std::vector<double> list(std::string_view name) const { return std::get<std::vector<double>>(value(name, name)); }
+    double number(std::string_view name, std::string_view key) const { return std::get<double>(value(name, key)); }
+
+    /// Both of a pair, or a usage Error that names what is missing.
+    void needBoth(std::string_view a, std::string_view b) const {
+        if (!has(a)) throw usageError(fmt::format("{} needs {}", flagOf(b), flagOf(a)));
+        if (!has(b)) throw usageError(fmt::format("{} needs {}", flagOf(a), flagOf(b)));
+    }
+
+private:
+    const std::string* find(std::string_view name) const {
+        const auto found = typed_.find(name);
+        return found == typed_.end() || found->second.empty() ? nullptr : &found->second.back();
+    }
+    ParamValue value(std::string_view name, std::string_view key) const {
+        const auto section = std::ranges::find(sceneSections(), "material", &SceneSection::name);
+        return parseValue(findParam(section->keys, key, "option"), text(name));
+    }
+
+    const std::map<std::string, std::vector<std::string>, std::less<>>& typed_;
+};
+
+void applyMaterial(const MaterialFlags& flags, SceneMaterial& material) {
+    const bool named = flags.has("material"), spelled = flags.has("sigma_s") || flags.has("sigma_a"),
+               inverted = flags.has("Rdr") || flags.has("ld"), refined = flags.has("g") || flags.has("eta");
     if (named + spelled + inverted > 1)
         throw usageError("the material is given twice", "one of --material, --sigma-a with --sigma-s, --Rdr with --ld");
-    if (named) {
-        if (lastOf(typed.material, "g") || lastOf(typed.material, "eta"))
-            throw usageError("--g and --eta belong to --sigma-a and --sigma-s or to --Rdr and --ld",
-                             "a named material has its own");
-        material = {};
-        material.id = *lastOf(typed.material, "material");
-        return;
-    }
-    if (!spelled && !inverted) {
-        if (lastOf(typed.material, "g") || lastOf(typed.material, "eta"))
-            throw usageError("--g and --eta alone make no material", "add --sigma-a and --sigma-s, or --Rdr and --ld");
-        return;
-    }
-    material = {};
-    material.id.clear();
-    const auto need = [&](const char* a, const char* b) {
-        if (!lastOf(typed.material, a)) throw usageError(fmt::format("{} needs {}", flagOf(b), flagOf(a)));
-        if (!lastOf(typed.material, b)) throw usageError(fmt::format("{} needs {}", flagOf(a), flagOf(b)));
-    };
+    if (named && refined)
+        throw usageError("--g and --eta belong to --sigma-a and --sigma-s or to --Rdr and --ld",
+                         "a named material has its own");
+    if (refined && !spelled && !inverted)
+        throw usageError("--g and --eta alone make no material", "add --sigma-a and --sigma-s, or --Rdr and --ld");
+
+    if (named || spelled || inverted) material = {};
+    if (spelled || inverted) material.id.clear();
+    if (named) material.id = flags.text("material");
     if (spelled) {
-        need("sigma_a", "sigma_s");
-        material.sigma_a = list("sigma_a");
-        material.sigma_s = list("sigma_s");
-    } else {
-        need("Rdr", "ld");
-        material.Rdr = list("Rdr");
-        material.ld = list("ld");
+        flags.needBoth("sigma_a", "sigma_s");
+        material.sigma_a = flags.list("sigma_a");
+        material.sigma_s = flags.list("sigma_s");
     }
-    if (lastOf(typed.material, "g")) material.g = list("g");
-    if (const std::string* eta = lastOf(typed.material, "eta"))
-        material.eta = std::get<double>(parseValue(findParam(section->keys, "eta", "option"), *eta));
+    if (inverted) {
+        flags.needBoth("Rdr", "ld");
+        material.Rdr = flags.list("Rdr");
+        material.ld = flags.list("ld");
+    }
+    if (flags.has("g")) material.g = flags.list("g");
+    if (flags.has("eta")) material.eta = flags.number("eta", "eta");
+    if (flags.has("material_scale")) material.scale = flags.number("material_scale", "scale");
 }
 
 Job jobOf(const Typed& typed) {
     Job job;
     job.command = typed.command->name;
     if (!typed.scene.empty()) job.scene = parseScene(readFile(typed.scene), typed.scene);
-    if (typed.command->uses_material) applyMaterial(typed, job.scene.material);
+    if (typed.command->uses_material) applyMaterial(MaterialFlags(typed), job.scene.material);
     for (const Param& param : typed.command->options) {
         const std::vector<std::string>& values = typed.options.at(param.name);
         if (values.empty()) {
@@ -184,6 +193,9 @@ Job jobOf(const Typed& typed) {
         const bool joins = param.type == ParamType::text && param.name != typed.command->positional;
         job.options[param.name] = parseValue(param, joins ? join(values, ",") : values.back());
     }
+    // Rdr and ld are a statement about one model: the one that the command is about, if it is about one.
+    if (const auto model = job.options.find("model"); model != job.options.end() && job.scene.material.inverted())
+        job.scene.model.id = std::get<std::string>(model->second);
     if (!typed.seed.empty()) {
         const std::optional<double> seed = parseNumber(typed.seed);
         if (!seed || *seed < 0 || *seed != std::floor(*seed) || *seed > 9007199254740992.0)

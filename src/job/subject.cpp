@@ -32,7 +32,7 @@ Subject invertedSubject(const SceneMaterial& material, const SceneModel& scene_m
     Subject subject{.name = fmt::format("Rdr {}, ld {} mm", valueText(material.Rdr), valueText(material.ld)),
                     .id = "custom",
                     .source = fmt::format("Rdr and ld inverted by the {}", model.id),
-                    .medium = inversion.medium};
+                    .medium = scaled(inversion.medium, material.scale)};
     for (int c = 0; c < target.channels; ++c)
         if (!inversion.reached[static_cast<std::size_t>(c)])
             subject.notes.push_back(
@@ -55,6 +55,7 @@ Subject subjectOf(const Job& job, Engine& engine) {
                     .medium = resolved.medium,
                     .comparable = resolved.unit_known};
     if (!resolved.note.empty()) subject.notes.push_back(resolved.note);
+    if (material.scale != 1) subject.name += fmt::format(", lengths times {}", prettyNumber(material.scale));
     if (material.id.empty()) {
         subject.name = fmt::format("sigma_a {}, sigma_s {}, g {}, eta {}", valueText(material.sigma_a),
                                    valueText(material.sigma_s), valueText(material.g), material.eta);

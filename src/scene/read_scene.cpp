@@ -122,11 +122,19 @@ private:
                         "such as \"skin1\" or {\"sigma_a\": 0.1, \"sigma_s\": 2}");
         material.id.clear();
         readFields(value, "/material", material_fields, {}, material);
+        const bool named = value.contains("id");
         const bool spelled = value.contains("sigma_a") || value.contains("sigma_s");
         const bool inverted = value.contains("Rdr") || value.contains("ld");
         const auto complete = [&](const char* a, const char* b) { return value.contains(a) && value.contains(b); };
-        if (spelled == inverted || (spelled && !complete("sigma_a", "sigma_s")) || (inverted && !complete("Rdr", "ld")))
-            throw error("/material", "expected either sigma_a and sigma_s, or Rdr and ld");
+        if (named + spelled + inverted != 1 || (spelled && !complete("sigma_a", "sigma_s")) ||
+            (inverted && !complete("Rdr", "ld")))
+            throw error("/material", "expected an id, or sigma_a and sigma_s, or Rdr and ld");
+        if (named) {
+            for (const char* key : {"g", "eta"})
+                if (value.contains(key))
+                    throw errorAtKey(std::string("/material/") + key, "a named material has its own");
+            return material;
+        }
         try {
             const std::vector<double> any{1};  // in place of what the inversion will find
             makeMedium(spelled ? material.sigma_a : any, spelled ? material.sigma_s : any, material.g, material.eta);

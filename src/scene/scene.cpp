@@ -8,12 +8,15 @@ namespace searchlight {
 
 Material resolveMaterial(const SceneMaterial& material) {
     assert(!material.inverted());
-    if (!material.id.empty()) return findMaterial(material.id);
-    Material custom;
-    custom.id = "custom";
-    custom.name = "custom";
-    custom.medium = makeMedium(material.sigma_a, material.sigma_s, material.g, material.eta);
-    return custom;
+    Material resolved;
+    if (material.id.empty()) {
+        resolved.id = resolved.name = "custom";
+        resolved.medium = makeMedium(material.sigma_a, material.sigma_s, material.g, material.eta);
+    } else {
+        resolved = findMaterial(material.id);
+    }
+    resolved.medium = scaled(resolved.medium, material.scale);
+    return resolved;
 }
 
 }  // namespace searchlight

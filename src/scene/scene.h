@@ -55,6 +55,7 @@ struct SceneMaterial {
     std::vector<double> Rdr;               ///< total diffuse reflectance
     std::vector<double> ld;                ///< diffuse mean free path, mm
     double eta = 1.3;
+    double scale = 1;  ///< lengths of the medium times this, so coefficients divided by it
 
     /// True when the medium has to be found from Rdr and ld.
     bool inverted() const { return !Rdr.empty(); }

@@ -52,6 +52,7 @@ inline const std::vector<Field<Camera>> camera_fields{
 };
 
 inline const std::vector<Field<SceneMaterial>> material_fields{
+    field("id", &SceneMaterial::id, ParamType::path, "", 0, 0, "a measured material, in place of the numbers below"),
     field("sigma_a", &SceneMaterial::sigma_a, ParamType::channels, "1/mm", 0, unlimited, "absorption coefficient"),
     field("sigma_s", &SceneMaterial::sigma_s, ParamType::channels, "1/mm", 0, unlimited,
           "scattering coefficient, not reduced"),
@@ -60,6 +61,8 @@ inline const std::vector<Field<SceneMaterial>> material_fields{
           "total diffuse reflectance, inverted by the model"),
     field("ld", &SceneMaterial::ld, ParamType::channels, "mm", 1e-9, unlimited, "diffuse mean free path, beside Rdr"),
     field("eta", &SceneMaterial::eta, ParamType::number, "", 0.25, 4, "refractive index, inside over outside"),
+    field("scale", &SceneMaterial::scale, ParamType::number, "", 1e-6, 1e6,
+          "lengths of the medium times this, so coefficients divided by it"),
 };
 
 inline const std::vector<Field<SceneModel>> model_fields{

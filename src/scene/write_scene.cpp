@@ -33,8 +33,12 @@ ordered_json section(const T& from, const std::vector<Field<T>>& fields) {
 }
 
 ordered_json materialJson(const SceneMaterial& material) {
-    if (!material.id.empty()) return material.id;
+    if (!material.id.empty()) {
+        if (material.scale == 1) return material.id;
+        return {{"id", material.id}, {"scale", material.scale}};
+    }
     ordered_json object = section(material, material_fields);
+    object.erase("id");
     for (const char* key : {"Rdr", "ld"})
         if (!material.inverted()) object.erase(key);
     for (const char* key : {"sigma_a", "sigma_s"})

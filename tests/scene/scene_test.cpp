@@ -69,6 +69,9 @@ TEST(SceneFile, MaterialHasThreeShapes) {
     EXPECT_TRUE(spelled.id.empty());
     EXPECT_EQ(spelled.sigma_s, (std::vector<double>{1, 2, 3}));
     EXPECT_EQ(spelled.g, std::vector<double>{0.5});
+    const SceneMaterial stretched = parse(R"("material": {"id": "marble", "scale": 2})").material;
+    EXPECT_EQ(stretched.id, "marble");
+    EXPECT_EQ(resolveMaterial(stretched).medium.sigma_s.r, resolveMaterial({.id = "marble"}).medium.sigma_s.r / 2);
     const SceneMaterial inverted = parse(R"("material": {"Rdr": 0.5, "ld": [3, 1, 0.5], "eta": 1.5})").material;
     EXPECT_TRUE(inverted.inverted());
     EXPECT_EQ(inverted.ld, (std::vector<double>{3, 1, 0.5}));
