@@ -38,5 +38,28 @@ TEST_F(Program, NamesFileLineAndColumnOfAMistake) {
     EXPECT_THAT(output.err, testing::HasSubstr("Wdith"));
 }
 
+// Saves a mistake while the program watches, sees it reported, and mends it; waits for files, not for times.
+TEST_F(Program, WatchesAModelFileThroughAMistake) {
+    writeFile(folder() / "falloff.bssrdf", falloff);
+    writeFile(folder() / "watch.sh", R"(
+        until_true() { for i in $(seq 200); do if eval "$1"; then return 0; fi; sleep 0.05; done; echo "never: $1"; }
+        "$1" plot pencil --models falloff.bssrdf --watch -o a.svg 2>err >/dev/null &
+        until_true 'grep -q watching err'
+        cp falloff.bssrdf good
+        sed -i 's/Width \* Width/Width * Wdith/' falloff.bssrdf
+        until_true 'grep -q falloff.bssrdf:7: err'
+        rm a.svg
+        cp good falloff.bssrdf
+        until_true 'test -f a.svg'
+        kill -INT $!
+        wait $!
+        echo "exit $?"
+    )");
+    const std::string command = "cd '" + folder().string() + "' && bash watch.sh '" SEARCHLIGHT_PROGRAM "' >out 2>&1";
+    ASSERT_EQ(std::system(command.c_str()), 0);
+    // A shell starts background work with Ctrl+C ignored; the program's own handler is what answers here.
+    EXPECT_EQ(readFile(folder() / "out"), "exit 0\n");
+}
+
 }  // namespace
 }  // namespace searchlight
