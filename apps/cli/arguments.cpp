@@ -99,8 +99,7 @@ void declare(CLI::App& root, Typed& typed, Arguments& arguments) {
         std::string names = flagOf(param.name);
         if (param.name == command.positional) names += "," + param.name;
         CLI::Option* option = addOption(app, names, typed.options[param.name], describe(param));
-        // A toggle is on where it stands alone.
-        if (param.type == ParamType::toggle) option->expected(0, 1)->default_str("true");
+        if (param.type == ParamType::toggle) option->expected(0, 1);
     }
     if (command.uses_material) {
         for (const MaterialFlag& flag : material_flags)
@@ -191,7 +190,8 @@ Job jobOf(const Typed& typed) {
         }
         // A list in text, such as --set, may be given piece by piece.
         const bool joins = param.type == ParamType::text && param.name != typed.command->positional;
-        job.options[param.name] = parseValue(param, joins ? join(values, ",") : values.back());
+        const bool stands_alone = param.type == ParamType::toggle && values.back().empty();
+        job.options[param.name] = stands_alone ? true : parseValue(param, joins ? join(values, ",") : values.back());
     }
     // Rdr and ld are a statement about one model: the one that the command is about, if it is about one.
     if (const auto model = job.options.find("model"); model != job.options.end() && job.scene.material.inverted())

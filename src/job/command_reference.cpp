@@ -1,4 +1,4 @@
-// reference halfspace: the searchlight problem by Monte Carlo.
+// reference halfspace: the searchlight problem by Monte Carlo, or exactly.
 #include <fmt/format.h>
 
 #include "base/error.h"
@@ -7,6 +7,7 @@
 #include "job/command_table.h"
 #include "job/curves.h"
 #include "job/json.h"
+#include "transport/exact_half_space.h"
 
 namespace searchlight {
 
@@ -65,7 +66,43 @@ std::vector<double> edgesOf(const Options& options) {
     return edges;
 }
 
-std::string estimateText(const Estimate& estimate) {
+void refuseWhite(const Options& options) {
+    if (options.toggle("exact")) throw usageError("--white and --exact exclude each other", "give one of the two");
+    if (options.given("estimator")) throw usageError("--white and --estimator exclude each other", "give one of the two");
+    if (options.number("grid") > 0) throw usageError("--white has no --grid", "its tables are radial");
+}
+
+// Where the channels came from: null for those that were walked. Channels that share a table share its errors.
+Json whiteJson(const ReferenceRun& run) {
+    Json tables = Json::array();
+    for (int c = 0; c < run.medium.channels; ++c) {
+        const auto& used = run.white[static_cast<std::size_t>(c)];
+        tables.push_back(used ? Json{{"cache_hit", used->hit},
+                                     {"build_seconds", used->table->build_seconds},
+                                     {"bytes", used->table->bytes()},
+                                     {"file", used->file.string()}}
+                              : Json());
+    }
+    return {{"largest_albedo", kWhiteLargestAlbedo}, {"tables", tables}};
+}
+
+// Says why where there is no exact solution.
+void refuseExact(const Options& options, const Subject& subject) {
+    for (const char* name : {"walks", "estimator"})
+        if (options.given(name))
+            throw usageError(fmt::format("--exact and --{} exclude each other", name), "give one of the two");
+    if (options.number("grid") > 0) throw usageError("--exact has no --grid", "the exact profile is radial");
+    for (int c = 0; c < subject.medium.channels; ++c) {
+        if (!subject.medium.scatters(c)) continue;
+        const std::string reason = whyNotExact(halfSpaceProblem(subject.medium, c, options.number("angle_deg")));
+        if (!reason.empty())
+            throw usageError(fmt::format("{} has no exact solution: {}", subject.name, reason),
+                             "--exact takes eta 1, g 0 and normal incidence; without it the problem is walked");
+    }
+}
+
+std::string estimateText(const Estimate& estimate, bool exact) {
+    if (exact) return fmt::format("{:.11f} +- {:.0e}", estimate.mean, estimate.standard_error);
     return fmt::format("{:.6f} +- {:.6f}", estimate.mean, estimate.standard_error);
 }
 
@@ -82,19 +119,26 @@ JobResult runReferenceHalfSpace(const Job& job, Engine& engine, Observer& observ
     reference.grid = static_cast<int>(options.number("grid"));
     reference.grid_extent_mm = options.number("grid_extent");
     reference.threads = static_cast<int>(options.number("threads"));
+    if (options.text("estimator") == "best") reference.estimator = Estimator::best;
     if (reference.grid > 0 && reference.grid_extent_mm <= 0)
         throw usageError("--grid needs --grid-extent", "half the side of the square, in mm");
+    reference.white = options.toggle("white");
+    if (reference.white) refuseWhite(options);
+    reference.exact = options.toggle("exact");
+    if (reference.exact) refuseExact(options, subject);
     const ReferenceRun run = runReference(subject.medium, reference, observer);
 
     const HalfSpaceResult* any = nullptr;
     Json specular = Json::array();
     std::uint64_t collisions = 0;
+    Estimator estimator = Estimator::analogue;
     for (int c = 0; c < run.medium.channels; ++c) {
         const auto& walked = run.channels[static_cast<std::size_t>(c)];
         specular.push_back(walked ? Json(walked->specular) : Json());
         if (!walked) continue;
         any = &*walked;
         collisions += walked->collisions;
+        if (walked->estimator == Estimator::best) estimator = Estimator::best;
     }
     if (!any) throw inputError(fmt::format("{} does not scatter in any channel", subject.name));
 
@@ -114,13 +158,15 @@ JobResult runReferenceHalfSpace(const Job& job, Engine& engine, Observer& observ
     document["seconds"] = run.seconds();
     document["threads"] = any->threads;
     document["instruction_set"] = any->instruction_set;
-    document["estimator"] = "analogue";
+    if (reference.white) document["white"] = whiteJson(run);
+    document["estimator"] = reference.exact ? "exact" : reference.white ? "white" : estimator == Estimator::best ? "best" : "analogue";
 
     JobResult result;
     result.json = document.dump(1);
-    result.text = fmt::format(
-        "{}, {:.3g} walks per channel, {} deg, per unit incident flux\n{:<4} {:>9}  {:>22}  {:>22}  {:>22}\n",
-        subject.name, static_cast<double>(any->walks), run.angle_deg, "", "specular", "diffuse", "single", "multiple");
+    const std::string method =
+        reference.exact ? "exact" : fmt::format("{:.3g} walks per channel", static_cast<double>(any->walks));
+    result.text = fmt::format("{}, {}, {} deg, per unit incident flux\n{:<4} {:>9}  {:>22}  {:>22}  {:>22}\n",
+                              subject.name, method, run.angle_deg, "", "specular", "diffuse", "single", "multiple");
     for (int c = 0; c < run.medium.channels; ++c) {
         const auto& walked = run.channels[static_cast<std::size_t>(c)];
         if (!walked) {
@@ -129,12 +175,20 @@ JobResult runReferenceHalfSpace(const Job& job, Engine& engine, Observer& observ
             continue;
         }
         result.text += fmt::format("{:<4} {:>9.6f}  {:>22}  {:>22}  {:>22}\n", channelName(run.medium, c),
-                                   walked->specular, estimateText(walked->all.total),
-                                   estimateText(walked->single.total), estimateText(walked->multiple.total));
+                                   walked->specular, estimateText(walked->all.total, reference.exact),
+                                   estimateText(walked->single.total, reference.exact),
+                                   estimateText(walked->multiple.total, reference.exact));
     }
-    result.text += fmt::format("{:.3g} walks/s on {} threads ({}), {:.3g} s; the profile is in --json\n",
-                               static_cast<double>(run.walks()) / run.seconds(), any->threads, any->instruction_set,
-                               run.seconds());
+    if (reference.exact)
+        result.text +=
+            fmt::format("{:.3g} s; +- bounds the numerical error; the profile is in --json\n", run.seconds());
+    else if (reference.white)
+        result.text += fmt::format("{:.3g} s, from tables of walks without absorption; the profile is in --json\n",
+                                   run.seconds());
+    else
+        result.text += fmt::format("{:.3g} walks/s on {} threads ({}), {:.3g} s; the profile is in --json\n",
+                                   static_cast<double>(run.walks()) / run.seconds(), any->threads, any->instruction_set,
+                                   run.seconds());
     if (!job.output.empty()) writeFile(job.output, result.json + "\n");
     return result;
 }

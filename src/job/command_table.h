@@ -10,6 +10,8 @@ JobResult runMaterials(const Job& job, Engine& engine, Observer& observer);
 JobResult runProfile(const Job& job, Engine& engine, Observer& observer);
 JobResult runInvert(const Job& job, Engine& engine, Observer& observer);
 JobResult runReferenceHalfSpace(const Job& job, Engine& engine, Observer& observer);
+JobResult runReferenceSlab(const Job& job, Engine& engine, Observer& observer);
+JobResult runMcml(const Job& job, Engine& engine, Observer& observer);
 JobResult runPlotPencil(const Job& job, Engine& engine, Observer& observer);
 JobResult runPlotError(const Job& job, Engine& engine, Observer& observer);
 JobResult runPlotAlbedo(const Job& job, Engine& engine, Observer& observer);

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "model/plane.h"
+#include "transport/exact_half_space.h"
 
 namespace searchlight {
 
@@ -19,6 +20,15 @@ constexpr double not_applicable = std::numeric_limits<double>::quiet_NaN();
 // Channels must not share random numbers: their errors are drawn as independent. Odd constant of [Steele2014].
 std::uint64_t channelSeed(std::uint64_t seed, int channel) {
     return seed + static_cast<std::uint64_t>(channel) * 0x9e3779b97f4a7c15u;
+}
+
+// Channels of one g share a table, and with it their errors: one seed for all.
+CachedWhiteTable whiteTableOf(const HalfSpaceProblem& problem, const ReferenceOptions& options, const ReferenceRun& run,
+                              Observer& observer) {
+    const WhiteKey key{problem.g, problem.eta, problem.angle_deg, options.walks, options.seed};
+    for (const std::optional<CachedWhiteTable>& known : run.white)
+        if (known && known->table->key == key) return *known;
+    return cachedWhiteTable(key, userWhiteCache(), options.threads, observer);
 }
 
 }  // namespace
@@ -65,6 +75,17 @@ ReferenceRun runReference(const Medium& medium, const ReferenceOptions& options,
     run.edges_mm = options.edges_mm.empty() ? plotEdges(medium, 0, 100) : options.edges_mm;
     for (int c = 0; c < medium.channels; ++c) {
         if (!medium.scatters(c) || (medium.channels > 1 && !options.only[c])) continue;
+        const HalfSpaceProblem problem = halfSpaceProblem(medium, c, options.angle_deg);
+        if (options.white) {
+            run.white[static_cast<std::size_t>(c)] = whiteTableOf(problem, options, run, observer);
+            run.channels[static_cast<std::size_t>(c)] = evaluateWhite(
+                *run.white[static_cast<std::size_t>(c)]->table, problem.sigma_a, problem.sigma_s, run.edges_mm);
+            continue;
+        }
+        if (options.exact) {
+            run.channels[static_cast<std::size_t>(c)] = solveHalfSpace(problem, run.edges_mm);
+            continue;
+        }
         HalfSpaceOptions walk;
         walk.walks = options.walks;
         walk.seed = channelSeed(options.seed, c);
@@ -72,8 +93,8 @@ ReferenceRun runReference(const Medium& medium, const ReferenceOptions& options,
         walk.grid = options.grid;
         walk.grid_extent_mm = options.grid_extent_mm;
         walk.threads = options.threads;
-        run.channels[static_cast<std::size_t>(c)] =
-            walkHalfSpace(halfSpaceProblem(medium, c, options.angle_deg), walk, observer);
+        walk.estimator = options.estimator;
+        run.channels[static_cast<std::size_t>(c)] = walkHalfSpace(problem, walk, observer);
     }
     return run;
 }
@@ -163,7 +184,17 @@ AlbedoData albedoData(double eta, double g, const std::vector<std::string>& mode
         }
         data.models.push_back(std::move(curve));
     }
-    if (walks > 0) {
+    if (eta == 1 && g == 0) {
+        AlbedoReference reference;
+        reference.label = "exact (H-function)";
+        for (int i = 1; i < 50; ++i) {
+            // Denser towards 1, where the curve bends.
+            const double root = 1 - i / 50.0;
+            reference.albedo.push_back(1 - root * root);
+            reference.total.push_back({exactTotal(root * root, 1 - root * root, 1).all.mean});
+        }
+        data.reference = std::move(reference);
+    } else if (walks > 0) {
         AlbedoReference reference;
         reference.label = fmt::format("Monte Carlo, {} walks a point", countText(static_cast<double>(walks)));
         for (const double albedo : {.1, .2, .3, .4, .5, .6, .7, .8, .9, .95, .98, .99}) {

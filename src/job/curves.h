@@ -10,6 +10,7 @@
 #include "plot/albedo.h"
 #include "plot/pencil.h"
 #include "transport/half_space.h"
+#include "transport/white_cache.h"
 
 namespace searchlight {
 
@@ -19,6 +20,7 @@ struct ReferenceRun {
     double angle_deg = 0;
     std::vector<double> edges_mm;
     std::array<std::optional<HalfSpaceResult>, Rgb::channels> channels;
+    std::array<std::optional<CachedWhiteTable>, Rgb::channels> white;  ///< where the channels came from tables
 
     std::uint64_t walks() const;
     double seconds() const;
@@ -34,6 +36,9 @@ struct ReferenceOptions {
     int grid = 0;
     double grid_extent_mm = 0;
     int threads = 0;
+    Estimator estimator = Estimator::analogue;
+    bool white = false;  ///< from tables of walks without absorption, in the user's cache; no grid, no estimator
+    bool exact = false;  ///< solved without walks, where whyNotExact() is empty
     bool only[Rgb::channels] = {true, true, true};  ///< channels to walk
 };
 
@@ -60,7 +65,7 @@ struct AlbedoData {
 };
 
 /// Total diffuse reflectance per unit incident flux over the reduced albedo, at normal incidence; `walks` per point of
-/// the reference, 0: none.
+/// the reference, 0: none. Isotropic scattering under a matched boundary has an exact reference, which costs no walks.
 AlbedoData albedoData(double eta, double g, const std::vector<std::string>& models, std::uint64_t walks,
                       std::uint64_t seed, std::string_view backend, Engine& engine, Observer& observer);
 

@@ -5,10 +5,12 @@
 #include <chrono>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/text.h"
+#include "transport/half_space_best.h"
 #include "transport/half_space_walk.h"
 
 namespace searchlight {
@@ -18,6 +20,8 @@ namespace {
 constexpr std::uint64_t kFewestChunks = 64;
 constexpr std::uint64_t kLargestChunk = 65'536;
 constexpr int kFinestGrid = 4096;
+// Beyond, expected escapes are few and heavy, and the analogue walk is the better one (docs/benchmarks.md).
+constexpr double kMostForward = 0.7;
 
 [[noreturn]] void reject(const char* what, double value, const char* valid) {
     throw inputError(std::string(what) + " is " + numberText(value), std::string(valid));
@@ -84,8 +88,9 @@ ExitTally::Sums operator+(const ExitTally::Sums& a, const ExitTally::Sums& b) {
 class Reduction {
 public:
     Reduction(const HalfSpaceProblem& problem, const HalfSpaceOptions& options, const TallyLayout& layout,
-              double transmitted)
+              double transmitted, std::optional<double> reach)
         : options_(options),
+          reach_(reach),
           layout_(layout),
           transmitted_(transmitted),
           mfp_(1 / (problem.sigma_a + problem.sigma_s)) {}
@@ -106,10 +111,14 @@ public:
 
 private:
     // Per unit incident flux. The scatter of batches without an exit would be 0; one exit is the least that can be
-    // said.
-    Estimate flux(const OrderSums& sums, std::size_t slot) const {
+    // said, unless exits have been foreseen with weights far below 1.
+    Estimate flux(const OrderSums& sums, std::size_t slot, double radius_mfp = 0) const {
+        const double walks = static_cast<double>(options_.walks);
         Estimate e = sums.flux.estimate(slot, options_.walks);
-        e.standard_error = std::max(e.standard_error, 1 / static_cast<double>(options_.walks));
+        double least = 1 / walks;
+        if (reach_)
+            least = radius_mfp >= *reach_ ? std::sqrt(std::max(e.mean, least) / walks) : e.mean == 0 ? least : 0;
+        e.standard_error = std::max(e.standard_error, least);
         return {transmitted_ * e.mean, transmitted_ * e.standard_error, e.count};
     }
 
@@ -126,7 +135,7 @@ private:
         const std::vector<double>& edges = options_.edges_mm;
         for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
             const double area = std::numbers::pi * (edges[i + 1] - edges[i]) * (edges[i + 1] + edges[i]);
-            const Estimate bin = flux(sums, first + 1 + i);
+            const Estimate bin = flux(sums, first + 1 + i, edges[i] / mfp_);
             tally.Rd.push_back(bin.mean / area);
             tally.standard_error.push_back(bin.standard_error / area);
         }
@@ -142,6 +151,7 @@ private:
     }
 
     const HalfSpaceOptions& options_;
+    std::optional<double> reach_;  ///< BestPlan::reach; errors beyond are at least those of whole exits
     const TallyLayout& layout_;
     double transmitted_;
     double mfp_;
@@ -163,10 +173,9 @@ HalfSpaceTally emptyTally(const HalfSpaceOptions& options) {
     return tally;
 }
 
-TallyLayout layoutOf(const HalfSpaceOptions& options, double sigma_t) {
-    std::vector<double> edges = options.edges_mm;
+std::vector<double> scaled(std::vector<double> edges, double sigma_t) {
     for (double& edge : edges) edge *= sigma_t;
-    return {RadialBins(edges), static_cast<std::size_t>(options.grid), options.grid_extent_mm * sigma_t};
+    return edges;
 }
 
 std::uint64_t chunksOf(std::uint64_t walks) {
@@ -187,6 +196,7 @@ HalfSpaceResult walkHalfSpace(const HalfSpaceProblem& problem, const HalfSpaceOp
     result.specular = beam.specular;
     result.threads = options.threads > 0 ? options.threads : hardwareThreads();
     result.instruction_set = halfSpaceInstructionSet();
+    result.estimator = options.grid > 0 || problem.g > kMostForward ? Estimator::analogue : options.estimator;
     if (problem.sigma_s == 0 || beam.specular == 1) {
         result.all = result.single = result.multiple = emptyTally(options);
         return result;
@@ -194,8 +204,14 @@ HalfSpaceResult walkHalfSpace(const HalfSpaceProblem& problem, const HalfSpaceOp
 
     const double sigma_t = problem.sigma_a + problem.sigma_s;
     const HalfSpaceWalk walk{problem.sigma_a / sigma_t, problem.g, problem.eta, beam.sine, beam.cosine};
-    const TallyLayout layout = layoutOf(options, sigma_t);
-    Reduction reduction(problem, options, layout, 1 - beam.specular);
+    const std::vector<double> edges = scaled(options.edges_mm, sigma_t);
+    const TallyLayout layout{RadialBins(edges), static_cast<std::size_t>(options.grid),
+                             options.grid_extent_mm * sigma_t};
+    std::optional<BestPlan> best;
+    if (result.estimator == Estimator::best) best.emplace(walk, edges);
+    std::optional<double> reach;
+    if (best) reach = best->reach(options.walks);
+    Reduction reduction(problem, options, layout, 1 - beam.specular, reach);
     const std::uint64_t chunks = chunksOf(options.walks);
     const auto firstWalk = [&](std::uint64_t chunk) {  // chunks differ by at most one walk
         return options.walks / chunks * chunk + std::min(options.walks % chunks, chunk);
@@ -210,7 +226,8 @@ HalfSpaceResult walkHalfSpace(const HalfSpaceProblem& problem, const HalfSpaceOp
         parallelFor(tallies.size(), options.threads, [&](std::size_t i) {
             if (observer.cancelled()) throw interruptedError();
             const std::uint64_t chunk = start + i, walks = firstWalk(chunk + 1) - firstWalk(chunk);
-            collisions += walkHalfSpaceChunk(walk, options.seed, chunk, walks, tallies[i]);
+            collisions += best ? walkBestChunk(*best, options.seed, chunk, walks, tallies[i])
+                               : walkHalfSpaceChunk(walk, options.seed, chunk, walks, tallies[i]);
             observer.progress("walk", done += walks, options.walks, "walks");
         });
         for (std::size_t i = 0; i < tallies.size(); ++i)

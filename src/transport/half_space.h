@@ -19,6 +19,12 @@ struct HalfSpaceProblem {
     double angle_deg = 0;  ///< of incidence outside, [0, 90); the refracted beam leans towards +x
 };
 
+/// How a walk becomes a tally; both are unbiased.
+enum class Estimator {
+    analogue,  ///< a walk is absorbed or leaves, and counts where it leaves
+    best,      ///< less noise in the same time: expected escape, importance, exact order 1 (half_space_best.h)
+};
+
 struct HalfSpaceOptions {
     std::uint64_t walks = 1'000'000;
     std::uint64_t seed = 1;
@@ -26,6 +32,7 @@ struct HalfSpaceOptions {
     int grid = 0;                  ///< cells per side of the square tally R(x, y); 0: none
     double grid_extent_mm = 0;     ///< the square is [-extent, extent]^2
     int threads = 0;               ///< 0: all
+    Estimator estimator = Estimator::analogue;  ///< a grid, and g > 0.7, are always walked by the analogue
 };
 
 /// What left the surface after scattering, per unit incident flux.
@@ -42,10 +49,11 @@ struct HalfSpaceTally {
 };
 
 struct HalfSpaceResult {
-    double specular = 0;      ///< Fresnel reflectance of the beam, not part of the tallies
-    HalfSpaceTally all;       ///< every order: single + multiple
-    HalfSpaceTally single;    ///< scattered exactly once
-    HalfSpaceTally multiple;  ///< scattered twice or more
+    double specular = 0;                        ///< Fresnel reflectance of the beam, not part of the tallies
+    HalfSpaceTally all;                         ///< every order: single + multiple
+    HalfSpaceTally single;                      ///< scattered exactly once
+    HalfSpaceTally multiple;                    ///< scattered twice or more
+    Estimator estimator = Estimator::analogue;  ///< that was used
     std::uint64_t walks = 0;
     std::uint64_t collisions = 0;
     double seconds = 0;  ///< wall time of walking

@@ -56,6 +56,7 @@ public:
     void add(std::span<const float> x, std::span<const float> y, std::span<const std::int32_t> collisions);
 
     const Sums& sums(Order order) const { return sums_[order]; }
+    Sums& sums(Order order) { return sums_[order]; }
 
 private:
     const TallyLayout* layout_;

@@ -21,6 +21,15 @@ TEST_F(Program, AnswersArgumentsThatMakeNoSenseWithOneMessage) {
     }
 }
 
+TEST_F(Program, RefusesAPictureFormatThatItCannotWrite) {
+    const Output output = run("plot pencil --models dipole -o pencil.gif");
+    EXPECT_EQ(output.exit_code, 2);
+    // Builds with Qt go on with .png and .pdf.
+    EXPECT_THAT(output.err, testing::StartsWith(
+                                "searchlight: pencil.gif: a figure cannot be written as '.gif' (write .svg, .csv"));
+    EXPECT_EQ(fileCount(), 0u);
+}
+
 TEST_F(Program, HelpShowsEveryCommandsExampleAndSucceeds) {
     for (const char* command : {"models", "materials", "profile", "invert", "reference halfspace", "plot pencil",
                                 "plot error", "plot albedo", "check", "report", "doctor", "run"}) {

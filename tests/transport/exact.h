@@ -31,17 +31,19 @@ inline HalfSpaceProblem ofAlbedo(double albedo, double eta = 1, double g = 0) {
 }
 
 inline HalfSpaceResult walk(const HalfSpaceProblem& problem, double walks, std::uint64_t seed,
-                            std::vector<double> edges = {0, 1}) {
+                            std::vector<double> edges = {0, 1}, Estimator estimator = Estimator::analogue) {
     Observer observer;
     HalfSpaceOptions options;
     options.walks = static_cast<std::uint64_t>(walks);
     options.seed = seed;
     options.edges_mm = std::move(edges);
+    options.estimator = estimator;
     return walkHalfSpace(problem, options, observer);
 }
 
 /// Diffuse reflectance at seven incidence cosines and 24 albedos, index matched.
-inline void compareMatchedTotals(Judge& judge, double walks, std::uint64_t seed) {
+inline void compareMatchedTotals(Judge& judge, double walks, std::uint64_t seed,
+                                 Estimator estimator = Estimator::analogue) {
     const CsvTable exact = table("halfspace_isotropic_matched.csv");
     for (std::size_t row = 0; row < exact.rows.size(); ++row) {
         const double albedo = exact.number(row, column(exact, "albedo"));
@@ -49,18 +51,19 @@ inline void compareMatchedTotals(Judge& judge, double walks, std::uint64_t seed)
             HalfSpaceProblem problem = ofAlbedo(albedo);
             problem.angle_deg = std::acos(cosine) * (180 / std::numbers::pi);
             const double truth = exact.number(row, column(exact, fmt::format("R_mu0={:g}", cosine)));
-            judge.compare(fmt::format("albedo {}, cosine {}", albedo, cosine), walk(problem, walks, seed++).all.total,
-                          truth);
+            judge.compare(fmt::format("albedo {}, cosine {}", albedo, cosine),
+                          walk(problem, walks, seed++, {0, 1}, estimator).all.total, truth);
         }
     }
 }
 
 /// Diffuse reflectance and mirror reflection at normal incidence under a Fresnel surface, eight indices, 16 albedos.
-inline void compareRefractiveTotals(Judge& judge, double walks, std::uint64_t seed) {
+inline void compareRefractiveTotals(Judge& judge, double walks, std::uint64_t seed,
+                                    Estimator estimator = Estimator::analogue) {
     const CsvTable exact = table("halfspace_refractive_isotropic.csv");
     for (std::size_t row = 0; row < exact.rows.size(); ++row) {
         const double n = exact.number(row, column(exact, "n")), albedo = exact.number(row, column(exact, "albedo"));
-        const HalfSpaceResult result = walk(ofAlbedo(albedo, n), walks, seed++);
+        const HalfSpaceResult result = walk(ofAlbedo(albedo, n), walks, seed++, {0, 1}, estimator);
         EXPECT_NEAR(result.specular, exact.number(row, column(exact, "R_specular")), 1e-10);
         judge.compare(fmt::format("n {}, albedo {}", n, albedo), result.all.total,
                       exact.number(row, column(exact, "R_diffuse")));
@@ -68,7 +71,8 @@ inline void compareRefractiveTotals(Judge& judge, double walks, std::uint64_t se
 }
 
 /// Mean exitance over each annulus of the exact searchlight, three albedos.
-inline void compareSearchlight(Judge& judge, double walks, std::uint64_t seed) {
+inline void compareSearchlight(Judge& judge, double walks, std::uint64_t seed,
+                               Estimator estimator = Estimator::analogue) {
     const CsvTable exact = table("searchlight_isotropic_matched.csv");
     for (const double albedo : {0.5, 0.9, 0.99}) {
         std::vector<double> edges = {0}, encircled = {0};
@@ -77,7 +81,7 @@ inline void compareSearchlight(Judge& judge, double walks, std::uint64_t seed) {
                 edges.push_back(exact.number(row, column(exact, "r")));
                 encircled.push_back(exact.number(row, column(exact, "F_encircled")));
             }
-        const HalfSpaceResult result = walk(ofAlbedo(albedo), walks, seed++, edges);
+        const HalfSpaceResult result = walk(ofAlbedo(albedo), walks, seed++, edges, estimator);
         for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
             const double area = std::numbers::pi * (edges[i + 1] * edges[i + 1] - edges[i] * edges[i]);
             const double flux = encircled[i + 1] - encircled[i];

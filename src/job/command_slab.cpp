@@ -1,0 +1,105 @@
+// reference slab: a pencil beam on plane layers by Monte Carlo.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "job/command_table.h"
+#include "job/slab_json.h"
+#include "transport/mcml_run.h"
+#include "transport/radial_edges.h"
+
+namespace searchlight {
+
+namespace {
+
+struct SlabSubject {
+    std::string name;
+    SlabProblem problem;
+    SlabOptions options;
+};
+
+McmlRun runOf(const std::string& path, int number) {
+    const std::vector<McmlRun> runs = parseMci(readFile(path), path);
+    if (number > static_cast<int>(runs.size()))
+        throw inputError(fmt::format("no run {}: the file has {}", number, runs.size())).at(path);
+    return runs[static_cast<std::size_t>(number) - 1];
+}
+
+// 10 transport mean free paths of the first layer that does anything.
+double naturalRange(const SlabProblem& problem) {
+    for (const SlabLayer& layer : problem.layers)
+        if (!layer.clear()) return 10 / (layer.sigma_a + (1 - layer.g) * layer.sigma_s);
+    return 10;
+}
+
+// The slab down to its end, or as deep as wide where it has none.
+double naturalDepth(const SlabProblem& problem) {
+    double depth = 0;
+    for (const SlabLayer& layer : problem.layers)
+        depth += std::isinf(layer.thickness_mm) ? naturalRange(problem) : layer.thickness_mm;
+    return depth > 0 ? depth : 1;
+}
+
+SlabSubject slabOf(const Options& options) {
+    if (options.given("layers") == options.given("mci"))
+        throw usageError("a slab needs either --layers or --mci", "a .json or an .mci file that states its layers");
+    SlabSubject subject;
+    if (options.given("mci")) {
+        subject.name = options.text("mci");
+        const McmlRun run = runOf(subject.name, static_cast<int>(options.number("run")));
+        subject.problem = slabProblem(run);
+        subject.options = slabOptions(run);
+        subject.options.maps = false;
+    } else {
+        if (options.given("run")) throw usageError("--run needs --mci", "it chooses a run of that file");
+        subject.name = options.text("layers");
+        subject.problem = parseLayers(readFile(subject.name), subject.name);
+    }
+    subject.problem.angle_deg = options.number("angle_deg");
+    return subject;
+}
+
+}  // namespace
+
+JobResult runReferenceSlab(const Job& job, Engine&, Observer& observer) {
+    const Options options(job);
+    SlabSubject subject = slabOf(options);
+    SlabOptions& walk = subject.options;
+    const bool grid_given = options.given("mci");  // the file has one, which options override
+    const auto wants = [&](const char* option) { return !grid_given || options.given(option); };
+    if (wants("walks")) walk.walks = static_cast<std::uint64_t>(options.number("walks"));
+    if (options.given("edges")) {
+        if (options.given("bins") || options.given("radii_max"))
+            throw usageError("--edges and --bins with --radii-max exclude each other", "give one of the two");
+        walk.edges_mm = options.list("edges");
+    } else if (wants("bins") || options.given("radii_max")) {
+        const double range = options.number("radii_max");
+        walk.edges_mm =
+            linearEdges(static_cast<int>(options.number("bins")), range > 0 ? range : naturalRange(subject.problem));
+    }
+    if (wants("angles")) walk.angles = static_cast<int>(options.number("angles"));
+    if (wants("depths")) walk.depths = static_cast<int>(options.number("depths"));
+    if (wants("depth"))
+        walk.depth_mm = options.number("depth") > 0 ? options.number("depth") : naturalDepth(subject.problem);
+    walk.maps = options.toggle("maps");
+    walk.seed = job.seed;
+    walk.threads = static_cast<int>(options.number("threads"));
+    const SlabResult walked = walkSlab(subject.problem, walk, observer);
+
+    Json document = documentJson("searchlight-slab/1", job);
+    document["per"] = "incident";
+    const Json numbers = slabJson(subject.problem, walk, walked);
+    for (const auto& [key, value] : numbers.items()) document[key] = value;
+    document["estimator"] = "analogue";
+    JobResult result;
+    result.json = document.dump(1);
+    result.text =
+        fmt::format("{}, {:.3g} walks, {} deg, per unit incident flux\n{}", subject.name,
+                    static_cast<double>(walk.walks), subject.problem.angle_deg, slabText(subject.problem, walked));
+    if (!job.output.empty()) writeFile(job.output, result.json + "\n");
+    return result;
+}
+
+}  // namespace searchlight
