@@ -40,8 +40,8 @@ TEST(Job, EveryCommandHasAnExampleThatNamesIt) {
 TEST(Job, DefaultsOfCommandsAreValidValues) {
     for (const Command& command : commands())
         for (const Param& param : command.options) {
-            // An empty list is the one default that a user cannot type: it stands for "absent".
-            if (param.required || param.value == ParamValue(std::vector<double>{})) continue;
+            // Empty lists and paths are the defaults that a user cannot type: they stand for "absent".
+            if (param.required || valueText(param.value).empty()) continue;
             EXPECT_NO_THROW(checkValue(param, param.value)) << command.name << " " << param.name;
         }
 }

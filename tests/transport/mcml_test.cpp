@@ -6,7 +6,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "../illegal/messages.h"
+#include "illegal/messages.h"
 #include "transport/mcml_run.h"
 
 namespace searchlight {
