@@ -68,7 +68,8 @@ std::vector<double> edgesOf(const Options& options) {
 
 void refuseWhite(const Options& options) {
     if (options.toggle("exact")) throw usageError("--white and --exact exclude each other", "give one of the two");
-    if (options.given("estimator")) throw usageError("--white and --estimator exclude each other", "give one of the two");
+    if (options.given("estimator"))
+        throw usageError("--white and --estimator exclude each other", "give one of the two");
     if (options.number("grid") > 0) throw usageError("--white has no --grid", "its tables are radial");
 }
 
@@ -159,7 +160,10 @@ JobResult runReferenceHalfSpace(const Job& job, Engine& engine, Observer& observ
     document["threads"] = any->threads;
     document["instruction_set"] = any->instruction_set;
     if (reference.white) document["white"] = whiteJson(run);
-    document["estimator"] = reference.exact ? "exact" : reference.white ? "white" : estimator == Estimator::best ? "best" : "analogue";
+    document["estimator"] = reference.exact                ? "exact"
+                            : reference.white              ? "white"
+                            : estimator == Estimator::best ? "best"
+                                                           : "analogue";
 
     JobResult result;
     result.json = document.dump(1);
@@ -183,8 +187,8 @@ JobResult runReferenceHalfSpace(const Job& job, Engine& engine, Observer& observ
         result.text +=
             fmt::format("{:.3g} s; +- bounds the numerical error; the profile is in --json\n", run.seconds());
     else if (reference.white)
-        result.text += fmt::format("{:.3g} s, from tables of walks without absorption; the profile is in --json\n",
-                                   run.seconds());
+        result.text +=
+            fmt::format("{:.3g} s, from tables of walks without absorption; the profile is in --json\n", run.seconds());
     else
         result.text += fmt::format("{:.3g} walks/s on {} threads ({}), {:.3g} s; the profile is in --json\n",
                                    static_cast<double>(run.walks()) / run.seconds(), any->threads, any->instruction_set,

@@ -78,8 +78,8 @@ ReferenceRun runReference(const Medium& medium, const ReferenceOptions& options,
         const HalfSpaceProblem problem = halfSpaceProblem(medium, c, options.angle_deg);
         if (options.white) {
             run.white[static_cast<std::size_t>(c)] = whiteTableOf(problem, options, run, observer);
-            run.channels[static_cast<std::size_t>(c)] = evaluateWhite(
-                *run.white[static_cast<std::size_t>(c)]->table, problem.sigma_a, problem.sigma_s, run.edges_mm);
+            run.channels[static_cast<std::size_t>(c)] = evaluateWhite(*run.white[static_cast<std::size_t>(c)]->table,
+                                                                      problem.sigma_a, problem.sigma_s, run.edges_mm);
             continue;
         }
         if (options.exact) {

@@ -25,8 +25,8 @@ TEST_F(Program, RefusesAPictureFormatThatItCannotWrite) {
     const Output output = run("plot pencil --models dipole -o pencil.gif");
     EXPECT_EQ(output.exit_code, 2);
     // Builds with Qt go on with .png and .pdf.
-    EXPECT_THAT(output.err, testing::StartsWith(
-                                "searchlight: pencil.gif: a figure cannot be written as '.gif' (write .svg, .csv"));
+    EXPECT_THAT(output.err,
+                testing::StartsWith("searchlight: pencil.gif: a figure cannot be written as '.gif' (write .svg, .csv"));
     EXPECT_EQ(fileCount(), 0u);
 }
 
