@@ -95,9 +95,7 @@ std::string titleText(std::string_view subject, const PencilOptions& options, bo
     return title + ", " + incidence(options.angle_deg);
 }
 
-Axis radiusAxis(const PencilOptions& options) {
-    return {"Radius", "mm", options.x_scale};
-}
+Axis radiusAxis(const PencilOptions& options) { return {"Radius", "mm", options.x_scale}; }
 
 Axis reflectanceAxis(const PencilOptions& options) {
     constexpr std::array<std::string_view, 3> names{"Diffuse reflectance", "Radius × diffuse reflectance",

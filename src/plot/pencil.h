@@ -13,8 +13,9 @@ namespace searchlight {
 /// A model's curve, per unit incident flux (T12 of the beam is in it).
 struct PencilCurve {
     std::string label;
-    std::vector<double> x_mm;    ///< ascending; distance from the beam; of oblique light, R_d is the mean over all directions
-    std::vector<Rgb> Rd;         ///< at x, 1/mm^2
+    std::vector<double>
+        x_mm;             ///< ascending; distance from the beam; of oblique light, R_d is the mean over all directions
+    std::vector<Rgb> Rd;  ///< at x, 1/mm^2
     std::vector<Rgb> bin_means;  ///< over the reference's annuli; empty without a reference
 };
 

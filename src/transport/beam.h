@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "transport/fresnel.h"
+
 namespace searchlight {
 
 struct Beam {
@@ -18,9 +20,7 @@ inline Beam enteringBeam(double eta, double angle_deg) {
     if (eta == 1) return {0, sine, cosine};
     if (sine >= 1) return {1, 1, 0};
     const double refracted = std::sqrt((1 - sine) * (1 + sine));
-    const double s = (cosine - eta * refracted) / (cosine + eta * refracted);
-    const double p = (eta * cosine - refracted) / (eta * cosine + refracted);
-    return {0.5 * (s * s + p * p), sine, refracted};
+    return {fresnelReflectance(1, cosine, eta, refracted), sine, refracted};
 }
 
 }  // namespace searchlight

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/text.h"
+#include "transport/beam.h"
 #include "transport/half_space_best.h"
 #include "transport/half_space_walk.h"
 
@@ -49,22 +50,6 @@ void check(const HalfSpaceOptions& options) {
     if (options.grid < 0 || options.grid > kFinestGrid) reject("the grid", options.grid, "0 to 4096 cells a side");
     if (options.grid > 0 && !(options.grid_extent_mm > 0 && options.grid_extent_mm <= 1e9))
         reject("the extent of the grid", options.grid_extent_mm, "above 0, up to 1e9 mm");
-}
-
-struct Beam {
-    double specular = 0;
-    double sine = 0, cosine = 1;  // inside; meaningless under total reflection
-};
-
-Beam refract(double eta, double angle_deg) {
-    const double angle = angle_deg * (std::numbers::pi / 180);
-    const double cosine = std::cos(angle), sine = std::sin(angle) / eta;
-    if (eta == 1) return {0, sine, cosine};
-    if (sine >= 1) return {1, 1, 0};  // entering a thinner medium beyond the critical angle
-    const double refracted = std::sqrt((1 - sine) * (1 + sine));
-    const double s = (cosine - eta * refracted) / (cosine + eta * refracted);
-    const double p = (eta * cosine - refracted) / (eta * cosine + refracted);
-    return {0.5 * (s * s + p * p), sine, refracted};
 }
 
 // Sums over chunks of one order of scattering.
@@ -191,7 +176,7 @@ HalfSpaceProblem halfSpaceProblem(const Medium& medium, int channel, double angl
 HalfSpaceResult walkHalfSpace(const HalfSpaceProblem& problem, const HalfSpaceOptions& options, Observer& observer) {
     check(problem);
     check(options);
-    const Beam beam = refract(problem.eta, problem.angle_deg);
+    const Beam beam = enteringBeam(problem.eta, problem.angle_deg);
     HalfSpaceResult result;
     result.specular = beam.specular;
     result.threads = options.threads > 0 ? options.threads : hardwareThreads();

@@ -21,7 +21,6 @@
 #include <memory>
 
 #include "transport/fresnel.h"
-#include "transport/random.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "transport/half_space_best.cpp"
@@ -30,13 +29,12 @@
 #define HWY_BROKEN_EMU128 0
 #include <hwy/foreach_target.h>
 
-#include "transport/lane_math-inl.h"
+#include "transport/lane_walk-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace searchlight {
 namespace HWY_NAMESPACE {
 
-constexpr std::size_t kLanes = 64;
 constexpr std::size_t kDepositCapacity = 1024;
 constexpr std::size_t kCopies = 4;  // of the histogram, so that one addition need not wait for the last
 // Without absorption a walk has no mean length: beyond so many collisions its importance falls as their inverse.
@@ -47,7 +45,7 @@ static_assert(kSplit >= 2, "a split makes at least two parts");
 // Ways out that are less likely than this are tallied so often only, with this probability for weight.
 constexpr float kFaintest = 0.02f;
 
-struct alignas(64) Lanes {
+struct alignas(64) BestLanes {
     float x[kLanes], y[kLanes], z[kLanes];  // of the collision to come, z grows into the medium
     float u[kLanes], v[kLanes], w[kLanes];  // direction before it
     float weight[kLanes];
@@ -57,13 +55,9 @@ struct alignas(64) Lanes {
     float moments[4][kLanes];  // weight times x and r^2, of order 1 and of all, not yet in the sums
 };
 
-struct Way {
-    FloatV u, v, w;
-};
-
-struct Pack {
+struct BestPack {
     FloatV x, y, z;
-    Way direction;
+    Direction direction;
     FloatV weight;
     IntV order;
     Generator random;
@@ -76,7 +70,7 @@ struct Waiting {
 };
 
 struct Deposits {
-    // Compressed stores write whole vectors.
+    // Whole vectors are stored at the end.
     std::int32_t slot[kDepositCapacity + kLanes + 16];
     float weight[kDepositCapacity + kLanes + 16];
     std::size_t count = 0;
@@ -119,10 +113,7 @@ public:
           albedo_(static_cast<float>(1 - plan.walk.absorbed)),
           critical_(static_cast<float>(criticalCosine(plan.walk.eta))) {
         std::memset(&lanes_, 0, sizeof lanes_);
-        for (std::size_t i = 0; i < kLanes / 2; ++i) {
-            lanes_.s0[i] = seeds.next();
-            lanes_.s1[i] = seeds.next();
-        }
+        seed(lanes_, seeds);
     }
 
     std::uint64_t run(ExitTally& tally) {
@@ -143,22 +134,24 @@ public:
     }
 
 private:
-    HWY_INLINE Pack load(std::size_t at) const {
+    static HWY_INLINE FloatV set(double value) { return hn::Set(Float(), static_cast<float>(value)); }
+
+    HWY_INLINE BestPack load(std::size_t at) const {
         const Float d;
         const Word dw;
-        Pack pack{hn::Load(d, lanes_.x + at),
-                  hn::Load(d, lanes_.y + at),
-                  hn::Load(d, lanes_.z + at),
-                  {hn::Zero(d), hn::Zero(d), hn::Zero(d)},
-                  hn::Load(d, lanes_.weight + at),
-                  hn::Load(Int(), lanes_.order + at),
-                  {hn::Load(dw, lanes_.s0 + at / 2), hn::Load(dw, lanes_.s1 + at / 2)}};
+        BestPack pack{hn::Load(d, lanes_.x + at),
+                      hn::Load(d, lanes_.y + at),
+                      hn::Load(d, lanes_.z + at),
+                      {hn::Zero(d), hn::Zero(d), hn::Zero(d)},
+                      hn::Load(d, lanes_.weight + at),
+                      hn::Load(Int(), lanes_.order + at),
+                      {hn::Load(dw, lanes_.s0 + at / 2), hn::Load(dw, lanes_.s1 + at / 2)}};
         if constexpr (!kIsotropic)
             pack.direction = {hn::Load(d, lanes_.u + at), hn::Load(d, lanes_.v + at), hn::Load(d, lanes_.w + at)};
         return pack;
     }
 
-    HWY_INLINE void store(const Pack& pack, std::size_t at) {
+    HWY_INLINE void store(const BestPack& pack, std::size_t at) {
         const Float d;
         const Word dw;
         hn::Store(pack.x, d, lanes_.x + at);
@@ -180,17 +173,16 @@ private:
         const Float d;
         const Int di;
         const FloatV zero = hn::Zero(d), one = hn::Set(d, 1.0f);
-        Pack pack = load(at);
+        BestPack pack = load(at);
         const FloatV luck = fineUniform(pack.random.next());
         const FloatV s = signedUniform(pack.random.next());
         const Azimuth phi = azimuth(pack.random.next());
         foresee(pack, at, phi, luck);
-        if constexpr (kIsotropic) {
-            const FloatV level = hn::Sqrt(hn::Max(hn::NegMulAdd(s, s, one), zero));
-            pack.direction = {hn::Mul(level, phi.cos), hn::Mul(level, phi.sin), s};
-        } else {
-            scatter(pack, s, phi);
-        }
+        if constexpr (kIsotropic)
+            pack.direction = isotropicDirection(s, phi);
+        else
+            pack.direction = henyeyGreenstein(pack.direction, set(plan_.walk.g),
+                                              set(0.5 * (1 - plan_.walk.g) * (1 - plan_.walk.g)), s, phi);
 
         const FloatV length = exponential(pack.random.next());
         pack.x = hn::MulAdd(length, pack.direction.u, pack.x);
@@ -235,42 +227,10 @@ private:
         return hn::LoadMaskBits(Float(), bytes);
     }
 
-    // `from`, turned by the polar cosine c and the transverse components a, b: the frame of [Duff2017].
-    static HWY_INLINE Way turned(const Way& from, FloatV c, FloatV a, FloatV b) {
-        const Float d;
-        const FloatV one = hn::Set(d, 1.0f);
-        const FloatV u = from.u, v = from.v, w = from.w;
-        const FloatV sign = hn::CopySign(one, w);
-        const FloatV k = hn::Div(hn::Neg(one), hn::Add(sign, w));
-        const FloatV uvk = hn::Mul(hn::Mul(u, v), k);
-        const FloatV tangent_x = hn::MulAdd(hn::Mul(sign, hn::Mul(u, u)), k, one);
-        const FloatV bitangent_y = hn::MulAdd(hn::Mul(v, v), k, sign);
-        const FloatV sa = hn::Mul(sign, a);
-        const FloatV nu = hn::MulAdd(c, u, hn::MulAdd(a, tangent_x, hn::Mul(b, uvk)));
-        const FloatV nv = hn::MulAdd(c, v, hn::MulAdd(sa, uvk, hn::Mul(b, bitangent_y)));
-        const FloatV nw = hn::NegMulAdd(sa, u, hn::NegMulAdd(b, v, hn::Mul(c, w)));
-        // One Newton step holds the length at 1.
-        const FloatV square = hn::MulAdd(nu, nu, hn::MulAdd(nv, nv, hn::Mul(nw, nw)));
-        const FloatV mend = hn::NegMulAdd(hn::Set(d, 0.5f), square, hn::Set(d, 1.5f));
-        return {hn::Mul(nu, mend), hn::Mul(nv, mend), hn::Mul(nw, mend)};
-    }
-
-    // Seen from inside under the cosine c, unpolarised. Lanes with c <= 0 hold nonsense.
-    HWY_INLINE FloatV reflectance(FloatV cosine) const {
-        const Float d;
-        const FloatV one = hn::Set(d, 1.0f), eta = hn::Set(d, static_cast<float>(plan_.walk.eta));
-        const FloatV eta2 = hn::Set(d, static_cast<float>(plan_.walk.eta * plan_.walk.eta));
-        const FloatV c = hn::Max(cosine, hn::Set(d, 1e-6f));  // below, products of four cosines underflow
-        const FloatV t = hn::Sqrt(hn::Max(hn::NegMulAdd(eta2, hn::NegMulAdd(c, c, one), one), hn::Zero(d)));
-        const FloatV eta_c = hn::Mul(eta, c), eta_t = hn::Mul(eta, t);
-        const FloatV s = hn::Mul(hn::Sub(eta_c, t), hn::Add(c, eta_t));  // both over one denominator
-        const FloatV p = hn::Mul(hn::Sub(c, eta_t), hn::Add(eta_c, t));
-        const FloatV q = hn::Mul(hn::Add(eta_c, t), hn::Add(c, eta_t));
-        return hn::Div(hn::Mul(hn::Set(d, 0.5f), hn::MulAdd(s, s, hn::Mul(p, p))), hn::Mul(q, q));
-    }
+    HWY_INLINE FloatV reflectance(FloatV cosine) const { return fresnel(cosine, set(plan_.walk.eta)).reflectance; }
 
     // Tallies what leaves without another collision, along two ways out with opposite azimuths.
-    HWY_INLINE void foresee(Pack& pack, std::size_t at, const Azimuth& phi, FloatV luck) {
+    HWY_INLINE void foresee(BestPack& pack, std::size_t at, const Azimuth& phi, FloatV luck) {
         const Float d;
         const FloatV one = hn::Set(d, 1.0f), range = hn::Set(d, 1 - critical_);
         const FloatV mu = hn::MulAdd(range, fineUniform(pack.random.next()), hn::Set(d, critical_));
@@ -303,22 +263,9 @@ private:
         return hn::Div(hn::Set(d, static_cast<float>((1 - g) * (1 + g))), hn::Mul(q, hn::Sqrt(q)));
     }
 
-    // A new direction by [HenyeyGreenstein1941], as in half_space_walk.cpp: m = 1 - cos.
-    HWY_INLINE void scatter(Pack& pack, FloatV s, const Azimuth& phi) const {
-        const Float d;
-        const FloatV one = hn::Set(d, 1.0f), two = hn::Set(d, 2.0f);
-        const FloatV g = hn::Set(d, static_cast<float>(plan_.walk.g));
-        const FloatV half_qq = hn::Set(d, static_cast<float>(0.5 * (1 - plan_.walk.g) * (1 - plan_.walk.g)));
-        const FloatV p = hn::MulAdd(g, s, one);
-        const FloatV numerator = hn::Mul(hn::Mul(half_qq, hn::Sub(one, s)), hn::Add(hn::Add(one, g), p));
-        const FloatV m = hn::Min(hn::Div(numerator, hn::Mul(p, p)), two);
-        const FloatV sine = hn::Sqrt(hn::Mul(m, hn::Sub(two, m)));
-        pack.direction = turned(pack.direction, hn::Sub(one, m), hn::Mul(sine, phi.cos), hn::Mul(sine, phi.sin));
-    }
-
     // `share` leaves with the probability `escape` at (dx, dy) from the walk.
     template <int kBuffer>
-    HWY_INLINE void deposit(const Pack& pack, std::size_t at, FloatV dx, FloatV dy, FloatV share, FloatV escape,
+    HWY_INLINE void deposit(const BestPack& pack, std::size_t at, FloatV dx, FloatV dy, FloatV share, FloatV escape,
                             FloatV luck) {
         const Float d;
         const Int di;
@@ -341,8 +288,9 @@ private:
 
         const IntV slot = hn::Add(slotOf(r2), hn::IfThenZeroElse(first, hn::Set(di, static_cast<int>(slots_))));
         Deposits& out = deposits_[kBuffer];
-        hn::CompressStore(slot, hn::RebindMask(di, wanted), di, out.slot + out.count);
-        out.count += hn::CompressStore(weight, wanted, d, out.weight + out.count);
+        storeSet(slot, hn::RebindMask(di, wanted), di, out.slot + out.count);
+        storeSet(weight, wanted, d, out.weight + out.count);
+        out.count += hn::CountTrue(d, wanted);
     }
 
     HWY_INLINE void addMoment(std::size_t which, std::size_t at, FloatV value) {
@@ -365,7 +313,7 @@ private:
         return slot;
     }
 
-    HWY_INLINE FloatV importanceOf(const Pack& pack) const {
+    HWY_INLINE FloatV importanceOf(const BestPack& pack) const {
         const Float d;
         const Int di;
         const FloatV offset = hn::Set(d, plan_.importance.offset);
@@ -439,7 +387,7 @@ private:
         const FloatM starts = maskOf(start_bits, at), parked = maskOf(parked_bits, at);
         const FloatM either = hn::Or(starts, parked);
         if (hn::AllFalse(d, either)) return;
-        Pack pack = load(at);
+        BestPack pack = load(at);
         const FloatV length = hn::IfThenElseZero(starts, exponential(pack.random.nextWhere(starts)));
         const FloatV sine = hn::Set(d, static_cast<float>(plan_.walk.sin_beam));
         const FloatV cosine = hn::Set(d, static_cast<float>(plan_.walk.cos_beam));
@@ -483,7 +431,7 @@ private:
     double moments_[4] = {};
     std::uint64_t free_ = ~std::uint64_t{0}, split_ = 0;  // one bit a lane
     std::vector<Waiting> bank_;
-    Lanes lanes_;
+    BestLanes lanes_;
     Deposits deposits_[2];
 };
 

@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/text.h"
+#include "transport/fresnel.h"
 #include "transport/slab_walk.h"
 
 namespace searchlight {
@@ -80,9 +81,7 @@ double reflectance(double n, double n_beyond, double invariant) {
     const double sine = invariant / n, sine_beyond = invariant / n_beyond;
     if (sine >= 1 || sine_beyond >= 1) return 1;
     const double c = std::sqrt((1 - sine) * (1 + sine)), t = std::sqrt((1 - sine_beyond) * (1 + sine_beyond));
-    const double s = (n * c - n_beyond * t) / (n * c + n_beyond * t);
-    const double p = (n_beyond * c - n * t) / (n_beyond * c + n * t);
-    return 0.5 * (s * s + p * p);
+    return fresnelReflectance(n, c, n_beyond, t);
 }
 
 // The beam down to its first layer that is not clear (to below the slab when all are).

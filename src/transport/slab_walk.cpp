@@ -7,7 +7,6 @@
 #include "transport/slab_walk.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -22,24 +21,14 @@
 #define HWY_BROKEN_EMU128 0
 #include <hwy/foreach_target.h>
 
-#include "transport/lane_scatter-inl.h"
+#include "transport/lane_walk-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace searchlight {
 namespace HWY_NAMESPACE {
 namespace {
 
-constexpr std::size_t kLanes = 64;
-constexpr std::size_t kPackLanes = 4;  // the fewest that a target has
-constexpr std::int32_t kNever = std::numeric_limits<std::int32_t>::max();
 constexpr std::size_t kEndCapacity = 1024;
-
-struct alignas(64) Lanes {
-    float x[kLanes], y[kLanes], z[kLanes];  // z: below the top of the layer
-    float u[kLanes], v[kLanes], w[kLanes];  // direction, w downwards
-    std::int32_t collisions[kLanes];        // so far
-    std::uint64_t s0[kLanes / 2], s1[kLanes / 2];
-};
 
 // What changes at events only.
 struct alignas(64) Layers {
@@ -51,21 +40,6 @@ struct alignas(64) Layers {
     std::int32_t survives[kLanes];  // so many collisions; the next one meets the roulette of long walks
     std::int32_t fate[kLanes];      // all ones: absorbed by the collision of the current step
 };
-
-// Stores the lanes that are set, without gaps; what follows them is undefined. For AVX2, Highway 1.0 has a table that
-// GCC 12 copies to the stack at every call, which halves the speed of the walk.
-template <class D>
-HWY_INLINE void storeSet(hn::Vec<D> v, hn::Mask<D> mask, D d, hn::TFromD<D>* to) {
-#if HWY_TARGET == HWY_AVX2
-    HWY_ALIGN hn::TFromD<D> lanes[8];
-    std::uint8_t bits[8] = {};
-    hn::Store(v, d, lanes);
-    hn::StoreMaskBits(d, mask, bits);
-    for (unsigned set = bits[0]; set != 0; set &= set - 1) *to++ = lanes[std::countr_zero(set)];
-#else
-    hn::StoreU(hn::Compress(v, mask), d, to);
-#endif
-}
 
 struct Ends {
     // Whole vectors are stored at the end.
@@ -91,14 +65,6 @@ struct Ends {
     }
 };
 
-// One vector of walks in registers.
-struct Pack {
-    FloatV x, y, z;
-    Direction direction;
-    IntV collisions;
-    Generator random;
-};
-
 template <bool kIsotropic>
 class SlabWalker {
 public:
@@ -114,74 +80,16 @@ public:
             eta_.push_back(static_cast<float>(layer.eta_down));
             eta_.push_back(static_cast<float>(layer.eta_up));
         }
-        for (std::size_t i = 0; i < kLanes / 2; ++i) {
-            from_->s0[i] = seeds.next();
-            from_->s1[i] = seeds.next();
-        }
+        seed(*from_, seeds);
         rare_ = SplitMix64(seeds.next());
     }
 
     std::uint64_t run() {
-        const Float d;
-        const std::size_t width = hn::Lanes(d);
-        std::size_t active[kLanes] = {};
-        std::uint64_t alive = 0;
-        for (std::size_t at = 0; at < kLanes; at += width) {
-            Pack pack = load(from_, at);
-            active[at] = start(pack, hn::FirstN(d, width), at);
-            alive += active[at];
-            store(pack, from_, at);
-        }
-        while (alive > 0) {
-            // Two passes: a branch on the outcome of a step would cost its whole latency when mispredicted, unless the
-            // steps of the other packs are under way by then.
-            std::uint64_t events = 0;
-            for (std::size_t at = 0; at < kLanes; at += width)
-                if (active[at] > 0) events |= static_cast<std::uint64_t>(advance(at)) << (at / kPackLanes);
-            steps_ += alive;
-            for (; events != 0; events &= events - 1) {
-                const auto at = static_cast<std::size_t>(std::countr_zero(events)) * kPackLanes;
-                const std::size_t parked = settle(at);
-                active[at] -= parked;
-                alive -= parked;
-            }
-            std::swap(from_, to_);
-        }
+        const std::uint64_t steps = walkAll(*this, from_, to_);
         tally_.addExits(exits_.take());
         tally_.addAbsorbed(absorptions_.take());
         tally_.addCollisions(collisions_.take());
-        return steps_ - crossings_;  // a step ends in a collision or at an interface
-    }
-
-private:
-    static HWY_INLINE Pack load(const Lanes* lanes, std::size_t at) {
-        const Float d;
-        const Word dw;
-        return {hn::Load(d, lanes->x + at),
-                hn::Load(d, lanes->y + at),
-                hn::Load(d, lanes->z + at),
-                {hn::Load(d, lanes->u + at), hn::Load(d, lanes->v + at), hn::Load(d, lanes->w + at)},
-                hn::Load(Int(), lanes->collisions + at),
-                {hn::Load(dw, lanes->s0 + at / 2), hn::Load(dw, lanes->s1 + at / 2)}};
-    }
-
-    static HWY_INLINE void store(const Pack& pack, Lanes* lanes, std::size_t at) {
-        const Float d;
-        const Word dw;
-        hn::Store(pack.x, d, lanes->x + at);
-        hn::Store(pack.y, d, lanes->y + at);
-        hn::Store(pack.z, d, lanes->z + at);
-        hn::Store(pack.direction.u, d, lanes->u + at);
-        hn::Store(pack.direction.v, d, lanes->v + at);
-        hn::Store(pack.direction.w, d, lanes->w + at);
-        hn::Store(pack.collisions, Int(), lanes->collisions + at);
-        hn::Store(pack.random.s0, dw, lanes->s0 + at / 2);
-        hn::Store(pack.random.s1, dw, lanes->s1 + at / 2);
-    }
-
-    HWY_INLINE FloatM outside(const Pack& pack, std::size_t at) const {
-        const Float d;
-        return hn::Or(hn::Lt(pack.z, hn::Zero(d)), hn::Gt(pack.z, hn::Load(d, layers_.thickness + at)));
+        return steps - crossings_;  // a step ends in a collision or at an interface
     }
 
     // Walks to the next collision as if the layer had no end, and scatters. True when a walk of the pack left its
@@ -189,12 +97,9 @@ private:
     HWY_INLINE bool advance(std::size_t at) {
         const Float d;
         const Int di;
-        Pack pack = load(from_, at);
+        Pack pack = load(*from_, at);
         const FloatV length = hn::Mul(exponential(pack.random.next()), hn::Load(d, layers_.mfp + at));
-        pack.x = hn::MulAdd(length, pack.direction.u, pack.x);
-        pack.y = hn::MulAdd(length, pack.direction.v, pack.y);
-        pack.z = hn::MulAdd(length, pack.direction.w, pack.z);
-        pack.collisions = hn::Add(pack.collisions, hn::Set(di, 1));
+        fly(pack, length);
         // 30 bits: what a smaller probability loses, below 5e-10 a collision, no sum of walks resolves.
         const hn::RebindToUnsigned<Int> du;
         const IntV chance = hn::BitCast(di, hn::ShiftRight<2>(hn::BitCast(du, pack.random.next())));
@@ -204,23 +109,10 @@ private:
         const FloatM counted = hn::RebindMask(d, hn::Lt(chance, hn::Load(di, layers_.counted + at)));
         count(pack, hn::AndNot(crosses, counted), at);
 
-        const FloatV s = signedUniform(pack.random.next());
-        const Azimuth phi = azimuth(pack.random.next());
-        if constexpr (kIsotropic)
-            pack.direction = isotropicDirection(s, phi);
-        else
-            pack.direction = henyeyGreenstein(pack.direction, hn::Load(d, layers_.g + at),
-                                              hn::Load(d, layers_.half_qq + at), s, phi);
-        store(pack, to_, at);
+        scatter<kIsotropic>(pack, hn::Load(d, layers_.g + at), hn::Load(d, layers_.half_qq + at));
+        store(pack, *to_, at);
         const hn::Mask<Int> is_long = hn::Gt(pack.collisions, hn::Load(di, layers_.survives + at));
         return !hn::AllFalse(d, hn::Or(crosses, hn::RebindMask(d, hn::Or(absorbed, is_long))));
-    }
-
-    // Counts collisions, before a roulette that they may bring.
-    HWY_INLINE void count(const Pack& pack, FloatM counted, std::size_t at) {
-        if (hn::AllFalse(Float(), counted)) return;
-        collisions_.add(counted, pack.x, pack.y, pack.z, pack.collisions, hn::Load(Int(), layers_.index + at));
-        if (collisions_.full()) tally_.addCollisions(collisions_.take());
     }
 
     // What interfaces, absorption and the roulette do to the step just made; new walks in the place of those that
@@ -228,7 +120,7 @@ private:
     HWY_INLINE std::size_t settle(std::size_t at) {
         const Float d;
         const Int di;
-        Pack pack = load(to_, at);
+        Pack pack = load(*to_, at);
         const FloatM crosses = outside(pack, at);
         const IntV index = hn::Load(di, layers_.index + at);
         FloatM free = hn::MaskFromVec(hn::Zero(d));
@@ -247,8 +139,37 @@ private:
         if (absorptions_.full()) tally_.addAbsorbed(absorptions_.take());
         free = hn::Or(free, absorbed);
         const std::size_t parked = hn::AllFalse(d, free) ? 0 : hn::CountTrue(d, free) - start(pack, free, at);
-        store(pack, to_, at);
+        store(pack, *to_, at);
         return parked;
+    }
+
+    // Starts a walk in every free lane while any wait, in lane order; parks the others. Returns the number started.
+    HWY_INLINE std::size_t start(Pack& pack, FloatM free, std::size_t at) {
+        const Float d;
+        const Int di;
+        std::size_t started = hn::CountTrue(d, free);
+        const bool all_start = started <= waiting_;
+        if (!all_start) started = static_cast<std::size_t>(waiting_);
+        waiting_ -= started;
+        moveToEntry(pack, free, walk_.sin_beam, walk_.cos_beam);
+        if (walk_.entry.size() > 1) pack.x = hn::IfThenElse(free, entryShifts(free, started), pack.x);
+        enter(free, hn::Set(di, walk_.first), at);
+        storeWhere(hn::RebindMask(di, free), hn::Set(di, kLongWalk), layers_.survives + at);
+        if (!all_start) park(free, started, at);
+        return started;
+    }
+
+private:
+    HWY_INLINE FloatM outside(const Pack& pack, std::size_t at) const {
+        const Float d;
+        return hn::Or(hn::Lt(pack.z, hn::Zero(d)), hn::Gt(pack.z, hn::Load(d, layers_.thickness + at)));
+    }
+
+    // Counts collisions, before a roulette that they may bring.
+    HWY_INLINE void count(const Pack& pack, FloatM counted, std::size_t at) {
+        if (hn::AllFalse(Float(), counted)) return;
+        collisions_.add(counted, pack.x, pack.y, pack.z, pack.collisions, hn::Load(Int(), layers_.index + at));
+        if (collisions_.full()) tally_.addCollisions(collisions_.take());
     }
 
     // Takes the walks that left their layer to the interface, where they are reflected or pass. Returns those that left
@@ -256,7 +177,7 @@ private:
     HWY_INLINE FloatM cross(Pack& pack, FloatM crosses, IntV index, std::size_t at) {
         const Float d;
         const Int di;
-        const Pack before = load(from_, at);
+        const Pack before = load(*from_, at);
         const Direction& in = before.direction;
         const FloatM up = hn::Lt(in.w, hn::Zero(d));
         const hn::Mask<Int> up_i = hn::RebindMask(di, up);
@@ -312,33 +233,6 @@ private:
         storeWhere(enters_i, index, layers_.index + at);
     }
 
-    static HWY_INLINE void storeWhere(hn::Mask<Int> mask, IntV value, std::int32_t* lanes) {
-        const Int di;
-        hn::Store(hn::IfThenElse(mask, value, hn::Load(di, lanes)), di, lanes);
-    }
-
-    // Starts a walk in every free lane while any wait, in lane order; parks the others. Returns the number started.
-    HWY_INLINE std::size_t start(Pack& pack, FloatM free, std::size_t at) {
-        const Float d;
-        const Int di;
-        std::size_t started = hn::CountTrue(d, free);
-        const bool all_start = started <= waiting_;
-        if (!all_start) started = static_cast<std::size_t>(waiting_);
-        waiting_ -= started;
-        const hn::Mask<Int> free_i = hn::RebindMask(di, free);
-        pack.x = hn::IfThenElse(free, walk_.entry.size() > 1 ? entryShifts(free, started) : hn::Zero(d), pack.x);
-        pack.y = hn::IfThenZeroElse(free, pack.y);
-        pack.z = hn::IfThenZeroElse(free, pack.z);
-        pack.direction.u = hn::IfThenElse(free, hn::Set(d, static_cast<float>(walk_.sin_beam)), pack.direction.u);
-        pack.direction.v = hn::IfThenZeroElse(free, pack.direction.v);
-        pack.direction.w = hn::IfThenElse(free, hn::Set(d, static_cast<float>(walk_.cos_beam)), pack.direction.w);
-        pack.collisions = hn::IfThenZeroElse(free_i, pack.collisions);
-        enter(free, hn::Set(di, walk_.first), at);
-        storeWhere(free_i, hn::Set(di, kLongWalk), layers_.survives + at);
-        if (!all_start) park(free, started, at);
-        return started;
-    }
-
     // Of the free lanes, those beyond the first `started` stand still from now on, in a layer without end.
     HWY_NOINLINE void park(FloatM free, std::size_t started, std::size_t at) {
         forEachLane(free, [&](std::size_t lane, std::size_t i) {
@@ -391,19 +285,9 @@ private:
         return hn::Ne(hn::Load(d, killed), hn::Zero(d));
     }
 
-    // Calls visit(lane, how many set lanes came before) for the set lanes in order.
-    template <class Visit>
-    static void forEachLane(FloatM mask, const Visit& visit) {
-        const Float d;
-        HWY_ALIGN float flags[16];
-        hn::Store(hn::IfThenElseZero(mask, hn::Set(d, 1.0f)), d, flags);
-        for (std::size_t lane = 0, i = 0; lane < hn::Lanes(d); ++lane)
-            if (flags[lane] != 0) visit(lane, i++);
-    }
-
     const SlabWalk& walk_;
     std::uint64_t waiting_;  // walks not yet started
-    std::uint64_t steps_ = 0, crossings_ = 0;
+    std::uint64_t crossings_ = 0;
     SplitMix64 rare_;
     SlabTally& tally_;
     std::int32_t count_;
