@@ -5,7 +5,7 @@
 
 #include <ctime>
 
-#include "transport/half_space.h"
+#include "transport/half_space/half_space.h"
 
 namespace searchlight {
 namespace {

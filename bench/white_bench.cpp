@@ -2,8 +2,8 @@
 // it.
 #include <benchmark/benchmark.h>
 
-#include "transport/radial_edges.h"
-#include "transport/white.h"
+#include "transport/walk/radial_edges.h"
+#include "transport/white/white.h"
 
 namespace searchlight {
 namespace {

@@ -1,8 +1,8 @@
-# One folder, one target: searchlight_library(name [DEPENDS ...] [LINK ...]) takes every .cpp beside it.
+# One folder, one target: searchlight_library(name [DEPENDS ...] [LINK ...]) takes every .cpp beside it and below.
 
 function(searchlight_library name)
   cmake_parse_arguments(ARG "" "" "DEPENDS;LINK" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   add_library(searchlight_${name} STATIC ${sources})
   add_library(searchlight::${name} ALIAS searchlight_${name})
   target_include_directories(searchlight_${name} PUBLIC ${PROJECT_SOURCE_DIR}/src)

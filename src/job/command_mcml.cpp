@@ -5,7 +5,7 @@
 #include "base/files.h"
 #include "job/command_table.h"
 #include "job/slab_json.h"
-#include "transport/mcml_run.h"
+#include "transport/mcml/mcml_run.h"
 
 namespace searchlight {
 

@@ -7,7 +7,7 @@
 #include "job/command_table.h"
 #include "job/curves.h"
 #include "job/json.h"
-#include "transport/exact_half_space.h"
+#include "transport/half_space/exact_half_space.h"
 
 namespace searchlight {
 

@@ -7,8 +7,8 @@
 #include "base/files.h"
 #include "job/command_table.h"
 #include "job/slab_json.h"
-#include "transport/mcml_run.h"
-#include "transport/radial_edges.h"
+#include "transport/mcml/mcml_run.h"
+#include "transport/walk/radial_edges.h"
 
 namespace searchlight {
 

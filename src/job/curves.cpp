@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "model/plane.h"
-#include "transport/exact_half_space.h"
+#include "transport/half_space/exact_half_space.h"
 
 namespace searchlight {
 

@@ -9,8 +9,8 @@
 #include "job/subject.h"
 #include "plot/albedo.h"
 #include "plot/pencil.h"
-#include "transport/half_space.h"
-#include "transport/white_cache.h"
+#include "transport/half_space/half_space.h"
+#include "transport/white/white_cache.h"
 
 namespace searchlight {
 

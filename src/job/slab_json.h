@@ -4,7 +4,7 @@
 #include <string>
 
 #include "job/json.h"
-#include "transport/slab.h"
+#include "transport/slab/slab.h"
 
 namespace searchlight {
 

@@ -3,8 +3,8 @@
 #include <cstdlib>
 
 #include "base/error.h"
-#include "transport/mcml_file.h"
-#include "transport/slab.h"
+#include "transport/mcml/mcml_file.h"
+#include "transport/slab/slab.h"
 
 namespace {
 

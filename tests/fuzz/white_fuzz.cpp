@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "transport/white_file.h"
+#include "transport/white/white_file.h"
 
 namespace {
 

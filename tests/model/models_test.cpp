@@ -179,8 +179,6 @@ TEST(DirectionalDipole, HasTheAsymptoteOfItsSources) {
     EXPECT_NEAR(4 * pi * loaded.Rd(r) * r * r * std::exp(s * r) / expected, 1, 2 / (s * r));
 }
 
-Vec3 cross(Vec3 a, Vec3 b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
-
 // [Frisvad2014] Eqs. 20 to 26 as they are printed, index-matched. The model joins source and image so that they do not
 // cancel; off the plane, with any normals, that must change nothing.
 double asPrinted(const Query& q, double sigma_a, double sigma_s) {

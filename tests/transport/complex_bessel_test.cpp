@@ -1,4 +1,4 @@
-#include "transport/complex_bessel.h"
+#include "transport/half_space/complex_bessel.h"
 
 #include <gtest/gtest.h>
 

@@ -11,7 +11,7 @@
 #include "base/csv.h"
 #include "base/files.h"
 #include "judge.h"
-#include "transport/half_space.h"
+#include "transport/half_space/half_space.h"
 
 namespace searchlight {
 

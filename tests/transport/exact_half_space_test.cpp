@@ -1,4 +1,4 @@
-#include "transport/exact_half_space.h"
+#include "transport/half_space/exact_half_space.h"
 
 #include <gtest/gtest.h>
 

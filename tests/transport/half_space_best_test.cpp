@@ -4,8 +4,8 @@
 #include <numeric>
 
 #include "exact.h"
-#include "transport/importance.h"
-#include "transport/single_scattering.h"
+#include "transport/half_space/importance.h"
+#include "transport/half_space/single_scattering.h"
 
 namespace searchlight {
 namespace {

@@ -1,4 +1,4 @@
-#include "transport/half_space.h"
+#include "transport/half_space/half_space.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

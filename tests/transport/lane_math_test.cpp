@@ -6,7 +6,7 @@
 #include <random>
 
 #define HWY_BROKEN_EMU128 0  // as in half_space_walk.cpp
-#include "transport/lane_math-inl.h"
+#include "transport/walk/lane_math-inl.h"
 
 namespace searchlight {
 namespace HWY_NAMESPACE {

@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "illegal/messages.h"
-#include "transport/mcml_run.h"
+#include "transport/mcml/mcml_run.h"
 
 namespace searchlight {
 namespace {

@@ -1,4 +1,4 @@
-#include "transport/slab.h"
+#include "transport/slab/slab.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,8 +12,8 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "judge.h"
-#include "transport/half_space.h"
-#include "transport/slab_walk.h"
+#include "transport/half_space/half_space.h"
+#include "transport/slab/slab_walk.h"
 
 namespace searchlight {
 namespace {

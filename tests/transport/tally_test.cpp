@@ -1,4 +1,4 @@
-#include "transport/tally.h"
+#include "transport/walk/tally.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <limits>
 #include <random>
 
-#include "transport/long_walk.h"
-#include "transport/radial_edges.h"
+#include "transport/walk/long_walk.h"
+#include "transport/walk/radial_edges.h"
 
 namespace searchlight {
 namespace {

@@ -1,4 +1,4 @@
-#include "transport/white_cache.h"
+#include "transport/white/white_cache.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
-#include "transport/white_file.h"
+#include "transport/white/white_file.h"
 
 namespace searchlight {
 namespace {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "exact.h"
-#include "transport/white.h"
+#include "transport/white/white.h"
 
 namespace searchlight {
 

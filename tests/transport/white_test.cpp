@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "transport/white_file.h"
-#include "transport/white_roulette.h"
-#include "transport/white_walk.h"
+#include "transport/white/white_file.h"
+#include "transport/white/white_roulette.h"
+#include "transport/white/white_walk.h"
 
 namespace searchlight {
 namespace {

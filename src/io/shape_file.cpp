@@ -1,0 +1,1 @@
+#include "io/shape_file.h"

@@ -1,0 +1,1 @@
+#include "light/irradiance.h"

@@ -1,0 +1,85 @@
+// How the integral of a BSSRDF over a surface is evaluated. One file per technique, one row in technique.cpp.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/image.h"
+#include "base/observer.h"
+#include "base/param.h"
+#include "geometry/object.h"
+#include "light/irradiance.h"
+#include "model/evaluator.h"
+#include "model/plane.h"
+#include "render/view.h"
+
+namespace searchlight {
+
+namespace gl {
+class Context;
+}
+
+/// Everything that a technique reads. What a change makes stale is recomputed, and nothing else: each part has a
+/// version that its owner counts up.
+struct RenderInput {
+    const Scene* scene = nullptr;
+    const Object* object = nullptr;
+    const RayScene* rays = nullptr;           ///< null for a cloud
+    const PointCloud* points = nullptr;       ///< of irradiance
+    const Irradiance* irradiance = nullptr;   ///< at those points
+    const VisibleSurface* visible = nullptr;  ///< receivers
+    const Model* model = nullptr;
+    Evaluator* evaluator = nullptr;  ///< set to the medium
+    const Medium* medium = nullptr;
+    const Profile* profile = nullptr;  ///< of a radial model; null otherwise
+    struct Versions {
+        std::uint64_t points = 0, light = 0, view = 0, material = 0;
+    } versions;
+};
+
+/// What a step cost and promises, by names that the JSON output uses.
+struct TechniqueReport {
+    std::map<std::string, double> stage_ms;  ///< "tree", "sum"
+    std::uint64_t interactions = 0;
+    double error_bound = 0;    ///< relative RMSE that is promised; 0: none
+    std::string approximates;  ///< one sentence: what it leaves out
+    std::string device;
+};
+
+/// Progressive: start, then step until done. Holds its caches from one start to the next.
+class Technique {
+public:
+    virtual ~Technique() = default;
+
+    /// Takes what changed. `input` and what it points to stay alive and unchanged until the next start.
+    virtual void start(const RenderInput& input, const ParamValues& options, Observer& observer) = 0;
+
+    /// A slice of work. Returns true when the answer is final.
+    virtual bool step(Observer& observer) = 0;
+
+    /// Exitance M per sample of input.visible so far, flux per mm^2 that left after scattering, before T21: the picture
+    /// is T21(wo) M / (pi 4 C_phi(1/eta)). For models that read wo this is pi 4 C_phi(1/eta) times the sum of T12
+    /// Q(wo).
+    virtual std::span<const Rgbf> exitance() const = 0;
+
+    virtual TechniqueReport report() const = 0;
+};
+
+/// A row of the table: id and one line, options as Params, and how to make one. `context` is null on a CPU backend.
+struct TechniqueEntry {
+    std::string_view id;  ///< "hierarchical"
+    std::string_view summary;
+    std::vector<Param> options;
+    bool gl = false;           ///< needs a context
+    bool directional = false;  ///< takes models that are not radial
+    std::unique_ptr<Technique> (*make)(gl::Context* context);
+};
+
+/// In menu order.
+std::span<const TechniqueEntry> techniques();
+
+}  // namespace searchlight

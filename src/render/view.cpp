@@ -1,0 +1,3 @@
+#include "render/view.h"
+#include "render/exitance_sum.h"
+#include "render/technique.h"

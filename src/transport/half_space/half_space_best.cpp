@@ -1,0 +1,520 @@
+// Unbiased, with less noise than the analogue walk of half_space_walk.cpp, for three reasons.
+//
+// Expected escape: each collision tallies the flux that leaves without another collision, at points drawn on the
+// surface. The way out is drawn inside the escape cone, uniform in its cosine (uniform in radius would have a variance
+// without bound), and comes with its opposite azimuth. What crosses the surface later was counted already: only the
+// reflected part goes on.
+//
+// Importance: weight times importance below 0.3 meets a roulette, above 2 the walk is split (importance.h).
+//
+// Order 1 is exact at normal incidence.
+//
+// Everything that is random depends on the lane alone, and sums run in lane order: the result does not depend on the
+// width of the hardware's vectors.
+#include "transport/half_space/half_space_best.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <memory>
+
+#include "transport/walk/fresnel.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "transport/half_space/half_space_best.cpp"
+// As in half_space_walk.cpp.
+#define HWY_DISABLED_TARGETS HWY_SSSE3
+#define HWY_BROKEN_EMU128 0
+#include <hwy/foreach_target.h>
+
+#include "transport/walk/lane_walk-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace searchlight {
+namespace HWY_NAMESPACE {
+
+constexpr std::size_t kDepositCapacity = 1024;
+constexpr std::size_t kCopies = 4;  // of the histogram, so that one addition need not wait for the last
+// Without absorption a walk has no mean length: beyond so many collisions its importance falls as their inverse.
+constexpr std::int32_t kLongWalk = 1 << 13;
+constexpr float kRoulette = 0.3f, kSplit = 2.0f;
+constexpr float kMostParts = 16;
+static_assert(kSplit >= 2, "a split makes at least two parts");
+// Ways out that are less likely than this are tallied so often only, with this probability for weight.
+constexpr float kFaintest = 0.02f;
+
+struct alignas(64) BestLanes {
+    float x[kLanes], y[kLanes], z[kLanes];  // of the collision to come, z grows into the medium
+    float u[kLanes], v[kLanes], w[kLanes];  // direction before it
+    float weight[kLanes];
+    float value[kLanes];  // weight times importance
+    std::int32_t order[kLanes];
+    std::uint64_t s0[kLanes / 2], s1[kLanes / 2];
+    float moments[4][kLanes];  // weight times x and r^2, of order 1 and of all, not yet in the sums
+};
+
+struct BestPack {
+    FloatV x, y, z;
+    Direction direction;
+    FloatV weight;
+    IntV order;
+    Generator random;
+};
+
+// Part of a split walk that waits for a lane.
+struct Waiting {
+    float x, y, z, u, v, w, weight;
+    std::int32_t order, parts;
+};
+
+struct Deposits {
+    // Whole vectors are stored at the end.
+    std::int32_t slot[kDepositCapacity + kLanes + 16];
+    float weight[kDepositCapacity + kLanes + 16];
+    std::size_t count = 0;
+};
+
+// exp(-x) for x in [0, 87], relative error 2e-7; constant beyond.
+HWY_INLINE FloatV expNegative(FloatV x) {
+    const Float d;
+    const FloatV y = hn::Neg(hn::Min(x, hn::Set(d, 87.0f)));
+    const FloatV k = hn::Round(hn::Mul(y, hn::Set(d, 1.44269504f)));
+    FloatV f = hn::NegMulAdd(k, hn::Set(d, 0.693359375f), y);  // log 2 in two parts
+    f = hn::NegMulAdd(k, hn::Set(d, -2.12194440e-4f), f);
+    // Taylor: |f| < 0.347 leaves 1.2e-7.
+    FloatV p = hn::Set(d, 1 / 720.0f);
+    p = hn::MulAdd(p, f, hn::Set(d, 1 / 120.0f));
+    p = hn::MulAdd(p, f, hn::Set(d, 1 / 24.0f));
+    p = hn::MulAdd(p, f, hn::Set(d, 1 / 6.0f));
+    p = hn::MulAdd(p, f, hn::Set(d, 0.5f));
+    p = hn::MulAdd(p, f, hn::Set(d, 1.0f));
+    p = hn::MulAdd(p, f, hn::Set(d, 1.0f));
+    const IntV exponent = hn::ShiftLeft<23>(hn::ConvertTo(Int(), k));
+    return hn::BitCast(d, hn::Add(hn::BitCast(Int(), p), exponent));
+}
+
+// (0, 1), finer towards 0, so that rare survivals keep their probability.
+HWY_INLINE FloatV fineUniform(IntV bits) {
+    const Float d;
+    const IntV k = hn::And(bits, hn::Set(Int(), 0x7FFFFFFF));
+    return hn::MulAdd(hn::ConvertTo(d, k), hn::Set(d, 0x1p-31f), hn::Set(d, 0x1p-32f));
+}
+
+template <bool kFresnel, bool kIsotropic>
+class BestWalker {
+public:
+    BestWalker(const BestPlan& plan, SplitMix64 seeds, std::uint64_t walks)
+        : plan_(plan),
+          waiting_(walks),
+          slots_(plan.bins.next_edge.size()),
+          histogram_(2 * slots_ * kCopies),
+          albedo_(static_cast<float>(1 - plan.walk.absorbed)),
+          critical_(static_cast<float>(criticalCosine(plan.walk.eta))) {
+        std::memset(&lanes_, 0, sizeof lanes_);
+        seed(lanes_, seeds);
+    }
+
+    std::uint64_t run(ExitTally& tally) {
+        std::uint64_t collisions = 0;
+        int steps = 0;
+        while (const int alive = refill()) {
+            collisions += static_cast<std::uint64_t>(alive);
+            free_ = split_ = 0;
+            for (std::size_t at = 0; at < kLanes; at += hn::Lanes(Float())) advance(at);
+            if (deposits_[0].count > kDepositCapacity || deposits_[1].count > kDepositCapacity) flushDeposits();
+            if (split_ != 0) splitWalks();
+            if (++steps % 64 == 0) flushMoments();
+        }
+        flushDeposits();
+        flushMoments();
+        finish(tally);
+        return collisions;
+    }
+
+private:
+    static HWY_INLINE FloatV set(double value) { return hn::Set(Float(), static_cast<float>(value)); }
+
+    HWY_INLINE BestPack load(std::size_t at) const {
+        const Float d;
+        const Word dw;
+        BestPack pack{hn::Load(d, lanes_.x + at),
+                      hn::Load(d, lanes_.y + at),
+                      hn::Load(d, lanes_.z + at),
+                      {hn::Zero(d), hn::Zero(d), hn::Zero(d)},
+                      hn::Load(d, lanes_.weight + at),
+                      hn::Load(Int(), lanes_.order + at),
+                      {hn::Load(dw, lanes_.s0 + at / 2), hn::Load(dw, lanes_.s1 + at / 2)}};
+        if constexpr (!kIsotropic)
+            pack.direction = {hn::Load(d, lanes_.u + at), hn::Load(d, lanes_.v + at), hn::Load(d, lanes_.w + at)};
+        return pack;
+    }
+
+    HWY_INLINE void store(const BestPack& pack, std::size_t at) {
+        const Float d;
+        const Word dw;
+        hn::Store(pack.x, d, lanes_.x + at);
+        hn::Store(pack.y, d, lanes_.y + at);
+        hn::Store(pack.z, d, lanes_.z + at);
+        if constexpr (!kIsotropic) {
+            hn::Store(pack.direction.u, d, lanes_.u + at);
+            hn::Store(pack.direction.v, d, lanes_.v + at);
+            hn::Store(pack.direction.w, d, lanes_.w + at);
+        }
+        hn::Store(pack.weight, d, lanes_.weight + at);
+        hn::Store(pack.order, Int(), lanes_.order + at);
+        hn::Store(pack.random.s0, dw, lanes_.s0 + at / 2);
+        hn::Store(pack.random.s1, dw, lanes_.s1 + at / 2);
+    }
+
+    // The collision of each walk, its flight to the next, and whether that one is worth having.
+    HWY_INLINE void advance(std::size_t at) {
+        const Float d;
+        const Int di;
+        const FloatV zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+        BestPack pack = load(at);
+        const FloatV luck = fineUniform(pack.random.next());
+        const FloatV s = signedUniform(pack.random.next());
+        const Azimuth phi = azimuth(pack.random.next());
+        foresee(pack, at, phi, luck);
+        if constexpr (kIsotropic)
+            pack.direction = isotropicDirection(s, phi);
+        else
+            pack.direction = henyeyGreenstein(pack.direction, set(plan_.walk.g),
+                                              set(0.5 * (1 - plan_.walk.g) * (1 - plan_.walk.g)), s, phi);
+
+        const FloatV length = exponential(pack.random.next());
+        pack.x = hn::MulAdd(length, pack.direction.u, pack.x);
+        pack.y = hn::MulAdd(length, pack.direction.v, pack.y);
+        const FloatV z = hn::MulAdd(length, pack.direction.w, pack.z);
+        const FloatM crosses = hn::Lt(z, zero);
+        const FloatV onward = pack.direction.w;
+        pack.z = hn::Abs(z);  // under a plane mirror the reflected path is the mirrored path
+        if constexpr (!kIsotropic) pack.direction.w = hn::IfThenElse(crosses, hn::Neg(onward), onward);
+        FloatV reflected = zero;
+        if constexpr (kFresnel) reflected = hn::Mul(pack.weight, reflectance(hn::Neg(onward)));
+        pack.weight = hn::IfThenElse(crosses, reflected, pack.weight);
+        pack.order = hn::Add(pack.order, hn::Set(di, 1));
+        // The first two collisions are common to all walks: finish() counts what they absorb.
+        const FloatM absorbs = hn::RebindMask(d, hn::Gt(pack.order, hn::Set(di, 2)));
+        pack.weight = hn::IfThenElse(absorbs, hn::Mul(pack.weight, hn::Set(d, albedo_)), pack.weight);
+
+        const FloatV importance = importanceOf(pack);
+        const FloatV value = hn::Mul(pack.weight, importance);
+        const FloatM low = hn::Lt(value, hn::Set(d, kRoulette));
+        // The number that thinned the deposits serves again: each decision is fair by itself.
+        const FloatM lives = hn::Lt(luck, value);
+        pack.weight = hn::IfThenElse(low, hn::IfThenElseZero(lives, hn::Div(one, importance)), pack.weight);
+        store(pack, at);
+        hn::Store(value, d, lanes_.value + at);
+        free_ |= bitsOf(hn::AndNot(lives, low), at);
+        split_ |= bitsOf(hn::Gt(value, hn::Set(d, kSplit)), at);
+    }
+
+    static HWY_INLINE std::uint64_t bitsOf(FloatM mask, std::size_t at) {
+        std::uint8_t bytes[8] = {};
+        hn::StoreMaskBits(Float(), mask, bytes);
+        std::uint64_t bits = 0;
+        std::memcpy(&bits, bytes, sizeof bits);
+        return (bits & ((std::uint64_t{1} << hn::Lanes(Float())) - 1)) << at;
+    }
+
+    static HWY_INLINE FloatM maskOf(std::uint64_t bits, std::size_t at) {
+        bits >>= at;
+        std::uint8_t bytes[8];
+        std::memcpy(bytes, &bits, sizeof bits);
+        return hn::LoadMaskBits(Float(), bytes);
+    }
+
+    HWY_INLINE FloatV reflectance(FloatV cosine) const { return fresnel(cosine, set(plan_.walk.eta)).reflectance; }
+
+    // Tallies what leaves without another collision, along two ways out with opposite azimuths.
+    HWY_INLINE void foresee(BestPack& pack, std::size_t at, const Azimuth& phi, FloatV luck) {
+        const Float d;
+        const FloatV one = hn::Set(d, 1.0f), range = hn::Set(d, 1 - critical_);
+        const FloatV mu = hn::MulAdd(range, fineUniform(pack.random.next()), hn::Set(d, critical_));
+        const FloatV inverse = hn::Div(one, mu);
+        const FloatV sine = hn::Sqrt(hn::Max(hn::NegMulAdd(mu, mu, one), hn::Zero(d)));
+        const FloatV length = hn::Mul(pack.z, inverse);
+        FloatV escape = expNegative(length);
+        if constexpr (kFresnel) escape = hn::Mul(escape, hn::Sub(one, reflectance(mu)));
+        const FloatV a = hn::Mul(sine, phi.cos), b = hn::Mul(sine, phi.sin);
+        const FloatV dx = hn::Mul(length, a), dy = hn::Mul(length, b);
+        // The cone's share of the sphere, half of it for each azimuth.
+        const FloatV share = hn::Mul(pack.weight, hn::Mul(hn::Set(d, 0.25f), range));
+        FloatV there = share, back = share;
+        if constexpr (!kIsotropic) {
+            const FloatV across = hn::MulAdd(a, pack.direction.u, hn::Mul(b, pack.direction.v));
+            const FloatV up = hn::Mul(mu, pack.direction.w);
+            there = hn::Mul(share, phase(hn::Sub(across, up)));
+            back = hn::Mul(share, phase(hn::Neg(hn::Add(across, up))));
+        }
+        deposit<0>(pack, at, dx, dy, there, escape, luck);
+        deposit<1>(pack, at, hn::Neg(dx), hn::Neg(dy), back, escape, luck);
+    }
+
+    // [HenyeyGreenstein1941], relative to isotropic scattering.
+    HWY_INLINE FloatV phase(FloatV cosine) const {
+        const Float d;
+        const double g = plan_.walk.g;
+        const FloatV q =
+            hn::NegMulAdd(hn::Set(d, static_cast<float>(2 * g)), cosine, hn::Set(d, static_cast<float>(1 + g * g)));
+        return hn::Div(hn::Set(d, static_cast<float>((1 - g) * (1 + g))), hn::Mul(q, hn::Sqrt(q)));
+    }
+
+    // `share` leaves with the probability `escape` at (dx, dy) from the walk.
+    template <int kBuffer>
+    HWY_INLINE void deposit(const BestPack& pack, std::size_t at, FloatV dx, FloatV dy, FloatV share, FloatV escape,
+                            FloatV luck) {
+        const Float d;
+        const Int di;
+        const FloatV faintest = hn::Set(d, kFaintest);
+        const FloatV x = hn::Add(pack.x, dx), y = hn::Add(pack.y, dy);
+        const FloatV r2 = hn::MulAdd(x, x, hn::Mul(y, y));
+        const hn::Mask<Int> first = hn::Eq(pack.order, hn::Set(di, 1));
+        FloatM wanted = hn::And(hn::Gt(share, hn::Zero(d)), hn::Lt(hn::Mul(luck, faintest), escape));
+        if (plan_.single) wanted = hn::AndNot(hn::RebindMask(d, first), wanted);
+        const FloatV weight = hn::IfThenElseZero(wanted, hn::Mul(share, hn::Max(escape, faintest)));
+
+        const FloatV wx = hn::Mul(weight, x), wr2 = hn::Mul(weight, r2);
+        if (!plan_.single) {
+            const FloatM is_first = hn::RebindMask(d, first);
+            addMoment(0, at, hn::IfThenElseZero(is_first, wx));
+            addMoment(1, at, hn::IfThenElseZero(is_first, wr2));
+        }
+        addMoment(2, at, wx);
+        addMoment(3, at, wr2);
+
+        const IntV slot = hn::Add(slotOf(r2), hn::IfThenZeroElse(first, hn::Set(di, static_cast<int>(slots_))));
+        Deposits& out = deposits_[kBuffer];
+        storeSet(slot, hn::RebindMask(di, wanted), di, out.slot + out.count);
+        storeSet(weight, wanted, d, out.weight + out.count);
+        out.count += hn::CountTrue(d, wanted);
+    }
+
+    HWY_INLINE void addMoment(std::size_t which, std::size_t at, FloatV value) {
+        const Float d;
+        float* moment = lanes_.moments[which] + at;
+        hn::Store(hn::Add(hn::Load(d, moment), value), d, moment);
+    }
+
+    HWY_INLINE IntV slotOf(FloatV r2) const {
+        const Float d;
+        const Int di;
+        const LaneBins& bins = plan_.bins;
+        const IntV last = hn::Set(di, static_cast<int>(bins.first_slot.size()) - 1);
+        const IntV cell = hn::Sub(hn::ShiftRightSame(hn::BitCast(di, r2), bins.shift), hn::Set(di, bins.first_cell));
+        IntV slot = hn::GatherIndex(di, bins.first_slot.data(), hn::Min(hn::Max(cell, hn::Zero(di)), last));
+        for (int i = 0; i < bins.steps; ++i) {
+            const FloatM above = hn::Ge(r2, hn::GatherIndex(d, bins.next_edge.data(), slot));
+            slot = hn::Sub(slot, hn::VecFromMask(di, hn::RebindMask(di, above)));
+        }
+        return slot;
+    }
+
+    HWY_INLINE FloatV importanceOf(const BestPack& pack) const {
+        const Float d;
+        const Int di;
+        const FloatV offset = hn::Set(d, plan_.importance.offset);
+        const auto cell = [&](FloatV square) {
+            constexpr int shift = 23 - ImportanceTable::kMantissaBits;
+            const IntV bits = hn::Sub(hn::BitCast(di, square), hn::BitCast(di, offset));
+            return hn::Min(hn::ShiftRight<shift>(bits), hn::Set(di, ImportanceTable::kCells - 1));
+        };
+        const IntV column = cell(hn::MulAdd(pack.x, pack.x, hn::MulAdd(pack.y, pack.y, offset)));
+        const IntV row = cell(hn::MulAdd(pack.z, pack.z, offset));
+        const IntV index = hn::Add(hn::Mul(row, hn::Set(di, ImportanceTable::kCells)), column);
+        const FloatV importance = hn::GatherIndex(d, plan_.importance.value.data(), index);
+        const hn::Mask<Int> is_long = hn::Gt(pack.order, hn::Set(di, kLongWalk));
+        if (HWY_LIKELY(hn::AllFalse(di, is_long))) return importance;
+        const FloatV fade = hn::Div(hn::Set(d, static_cast<float>(kLongWalk)), hn::ConvertTo(d, pack.order));
+        return hn::IfThenElse(hn::RebindMask(d, is_long), hn::Mul(importance, fade), importance);
+    }
+
+    HWY_NOINLINE void flushDeposits() {
+        for (Deposits& deposits : deposits_) {
+            for (std::size_t i = 0; i < deposits.count; ++i)
+                histogram_[(i % kCopies) * 2 * slots_ + static_cast<std::size_t>(deposits.slot[i])] +=
+                    static_cast<double>(deposits.weight[i]);
+            deposits.count = 0;
+        }
+    }
+
+    HWY_NOINLINE void flushMoments() {
+        for (std::size_t which = 0; which < 4; ++which)
+            for (float& moment : lanes_.moments[which]) {
+                moments_[which] += static_cast<double>(moment);
+                moment = 0;
+            }
+    }
+
+    HWY_NOINLINE void splitWalks() {
+        for (std::uint64_t bits = split_; bits != 0; bits &= bits - 1) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(bits));
+            const auto parts = static_cast<std::int32_t>(std::min(lanes_.value[i], kMostParts));
+            lanes_.weight[i] /= static_cast<float>(parts);
+            bank_.push_back({lanes_.x[i], lanes_.y[i], lanes_.z[i], lanes_.u[i], lanes_.v[i], lanes_.w[i],
+                             lanes_.weight[i], lanes_.order[i], parts - 1});
+        }
+    }
+
+    // Puts parts of split walks, then new walks, into free lanes. Returns the number of lanes that walk.
+    HWY_INLINE int refill() {
+        if (free_ == 0) return kLanes;
+        return refillFree();
+    }
+
+    HWY_NOINLINE int refillFree() {
+        std::uint64_t free = free_;
+        for (; free != 0 && !bank_.empty(); free &= free - 1) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(free));
+            Waiting& part = bank_.back();
+            lanes_.x[i] = part.x, lanes_.y[i] = part.y, lanes_.z[i] = part.z;
+            lanes_.u[i] = part.u, lanes_.v[i] = part.v, lanes_.w[i] = part.w;
+            lanes_.weight[i] = part.weight, lanes_.order[i] = part.order;
+            if (--part.parts == 0) bank_.pop_back();
+        }
+        std::uint64_t starts = 0, parked = free;
+        for (; parked != 0 && waiting_ > 0; parked &= parked - 1, --waiting_) starts |= parked & -parked;
+        for (std::size_t at = 0; at < kLanes; at += hn::Lanes(Float())) start(at, starts, parked);
+        return static_cast<int>(kLanes) - std::popcount(parked);
+    }
+
+    // New walks stand before their first collision; parked lanes weigh nothing.
+    HWY_INLINE void start(std::size_t at, std::uint64_t start_bits, std::uint64_t parked_bits) {
+        const Float d;
+        const FloatM starts = maskOf(start_bits, at), parked = maskOf(parked_bits, at);
+        const FloatM either = hn::Or(starts, parked);
+        if (hn::AllFalse(d, either)) return;
+        BestPack pack = load(at);
+        const FloatV length = hn::IfThenElseZero(starts, exponential(pack.random.nextWhere(starts)));
+        const FloatV sine = hn::Set(d, static_cast<float>(plan_.walk.sin_beam));
+        const FloatV cosine = hn::Set(d, static_cast<float>(plan_.walk.cos_beam));
+        pack.x = hn::IfThenElse(either, hn::Mul(length, sine), pack.x);
+        pack.y = hn::IfThenZeroElse(either, pack.y);
+        pack.z = hn::IfThenElse(either, hn::Mul(length, cosine), pack.z);
+        if constexpr (!kIsotropic)
+            pack.direction = {hn::IfThenElse(either, sine, pack.direction.u),
+                              hn::IfThenZeroElse(either, pack.direction.v),
+                              hn::IfThenElse(either, cosine, pack.direction.w)};
+        pack.weight = hn::IfThenElse(starts, hn::Set(d, 1.0f), hn::IfThenZeroElse(parked, pack.weight));
+        pack.order = hn::IfThenElse(hn::RebindMask(Int(), either), hn::Set(Int(), 1), pack.order);
+        store(pack, at);
+    }
+
+    void finish(ExitTally& tally) const {
+        const double albedo = 1 - plan_.walk.absorbed;
+        const double scale[] = {albedo, albedo * albedo};
+        for (std::size_t order = 0; order < 2; ++order) {
+            ExitTally::Sums& sums = tally.sums(order == 0 ? ExitTally::single : ExitTally::multiple);
+            for (std::size_t slot = 0; slot < slots_; ++slot) {
+                double weight = 0;
+                for (std::size_t copy = 0; copy < kCopies; ++copy)
+                    weight += histogram_[(2 * copy + order) * slots_ + slot];
+                sums.flux[1 + slot] += scale[order] * weight;
+                sums.flux[0] += scale[order] * weight;
+            }
+            // Moments of order 1 were counted among all.
+            const double x = order == 0 ? moments_[0] : moments_[2] - moments_[0];
+            const double r2 = order == 0 ? moments_[1] : moments_[3] - moments_[1];
+            sums.x += scale[order] * x;
+            sums.r2 += scale[order] * r2;
+        }
+    }
+
+    const BestPlan& plan_;
+    std::uint64_t waiting_;  // walks not yet started
+    std::size_t slots_;
+    std::vector<double> histogram_;  // kCopies of slots of order 1, slots of the others
+    float albedo_, critical_;
+    double moments_[4] = {};
+    std::uint64_t free_ = ~std::uint64_t{0}, split_ = 0;  // one bit a lane
+    std::vector<Waiting> bank_;
+    BestLanes lanes_;
+    Deposits deposits_[2];
+};
+
+template <bool kFresnel, bool kIsotropic>
+std::uint64_t bestAs(const BestPlan& plan, SplitMix64 seeds, std::uint64_t walks, ExitTally& tally) {
+    return std::make_unique<BestWalker<kFresnel, kIsotropic>>(plan, seeds, walks)->run(tally);
+}
+
+std::uint64_t bestChunk(const BestPlan& plan, SplitMix64 seeds, std::uint64_t walks, ExitTally& tally) {
+    const bool fresnel = plan.walk.eta != 1, isotropic = plan.walk.g == 0;
+    return (fresnel     ? isotropic ? bestAs<true, true> : bestAs<true, false>
+                : isotropic ? bestAs<false, true>
+                        : bestAs<false, false>)(plan, seeds, walks, tally);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace searchlight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace searchlight {
+
+HWY_EXPORT(bestChunk);
+
+namespace {
+
+LaneBins laneBins(std::span<const double> edges) {
+    LaneBins bins;
+    for (const double edge : edges) bins.next_edge.push_back(static_cast<float>(edge * edge));
+    bins.next_edge.push_back(std::numeric_limits<float>::infinity());
+    const std::size_t first = bins.next_edge[0] > 0 ? 0 : 1;
+    const std::span<const float> squares(bins.next_edge.data() + first, edges.size() - first);
+    // As in RadialBins: the upper bits of a float are a logarithmic index, refined until no cell holds two edges or the
+    // table grows out of the first cache.
+    constexpr std::size_t most_cells = 4096;
+    const auto cell = [](float r2, int shift) { return std::bit_cast<std::int32_t>(r2) >> shift; };
+    std::size_t cells = 0;
+    for (int bits = 3; bits <= 14; ++bits) {
+        const int shift = 23 - bits;
+        const auto needed = static_cast<std::size_t>(cell(squares.back(), shift) - cell(squares.front(), shift)) + 1;
+        if (bins.steps == 1 || (bits > 3 && needed > most_cells)) break;
+        bins.shift = shift;
+        bins.first_cell = cell(squares.front(), shift);
+        cells = needed;
+        bins.steps = 0;
+        for (std::size_t i = 0, run = 0; i < squares.size(); ++i) {
+            run = i > 0 && cell(squares[i], shift) == cell(squares[i - 1], shift) ? run + 1 : 1;
+            bins.steps = std::max(bins.steps, static_cast<std::int32_t>(run));
+        }
+    }
+    std::int32_t slot = static_cast<std::int32_t>(first);
+    const auto last = static_cast<std::int32_t>(edges.size());
+    for (std::size_t c = 0; c < cells; ++c) {
+        while (slot < last && cell(bins.next_edge[static_cast<std::size_t>(slot)], bins.shift) - bins.first_cell <
+                                  static_cast<std::int32_t>(c))
+            ++slot;
+        bins.first_slot.push_back(slot);
+    }
+    return bins;
+}
+
+}  // namespace
+
+BestPlan::BestPlan(const HalfSpaceWalk& half_space, std::span<const double> edges)
+    : walk(half_space), importance(makeImportanceTable(half_space, edges)), bins(laneBins(edges)) {
+    if (walk.sin_beam == 0) single = singleScattering(walk, edges);
+}
+
+double BestPlan::reach(std::uint64_t walks) const {
+    return std::log(std::max(1.0, static_cast<double>(walks) / 100)) / std::max(importance.decay, 1e-30);
+}
+
+std::uint64_t walkBestChunk(const BestPlan& plan, std::uint64_t seed, std::uint64_t chunk, std::uint64_t walks,
+                            ExitTally& tally) {
+    if (plan.single) {
+        ExitTally::Sums& sums = tally.sums(ExitTally::single);
+        const double n = static_cast<double>(walks);
+        sums.flux[0] = n * plan.single->total;
+        for (std::size_t i = 0; i < plan.single->flux.size(); ++i) sums.flux[1 + i] = n * plan.single->flux[i];
+        sums.r2 = n * plan.single->r2;
+    }
+    return HWY_DYNAMIC_DISPATCH(bestChunk)(plan, streamOf(seed, chunk), walks, tally);
+}
+
+}  // namespace searchlight
+#endif

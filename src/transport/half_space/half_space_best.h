@@ -1,0 +1,45 @@
+// The low-variance walk of the half-space: at every collision it tallies the light that is expected to leave from
+// there, and it is followed only where that still matters.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "transport/half_space/half_space_walk.h"
+#include "transport/half_space/importance.h"
+#include "transport/half_space/single_scattering.h"
+#include "transport/walk/tally.h"
+
+namespace searchlight {
+
+/// RadialBins for float lanes: the same slots, edges rounded to float.
+struct LaneBins {
+    int shift = 0;  ///< a cell of the table is a run of floats that share their bits above
+    std::int32_t first_cell = 0;
+    std::int32_t steps = 0;                ///< the most edges within one cell
+    std::vector<std::int32_t> first_slot;  ///< per cell: the lowest slot that meets it
+    std::vector<float> next_edge;          ///< per slot: the squared edge that ends it; infinity for the last
+};
+
+/// What all chunks of a job share. Lengths are in mean free paths.
+struct BestPlan {
+    BestPlan(const HalfSpaceWalk& walk, std::span<const double> edges);
+
+    /// The radius that 100 of so many walks would reach without being led. Farther out few flights carry most of the
+    /// light, and the scatter of the chunks may have seen none of them.
+    double reach(std::uint64_t walks) const;
+
+    HalfSpaceWalk walk;
+    ImportanceTable importance;
+    LaneBins bins;
+    std::optional<SingleScattering> single;  ///< at normal incidence; otherwise walks tally order 1, too
+};
+
+/// As walkHalfSpaceChunk; the tally must have the plan's edges and no grid.
+std::uint64_t walkBestChunk(const BestPlan& plan, std::uint64_t seed, std::uint64_t chunk, std::uint64_t walks,
+                            ExitTally& tally);
+
+}  // namespace searchlight

@@ -1,0 +1,28 @@
+// One chunk of walks in a half-space, in the widest instruction set of this machine.
+#pragma once
+
+#include <cstdint>
+
+#include "transport/walk/tally.h"
+
+namespace searchlight {
+
+/// What a walk knows of its medium. Lengths are in mean free paths: then every coordinate that matters to a tally is of
+/// order 1, and float carries it (see half_space_walk.cpp).
+struct HalfSpaceWalk {
+    double absorbed = 0;  ///< 1 - albedo, which keeps its digits near albedo 1
+    double g = 0;
+    double eta = 1;       ///< inside over outside
+    double sin_beam = 0;  ///< of the refracted beam, which leans towards +x
+    double cos_beam = 1;
+};
+
+/// Starts `walks` walks of the stream (seed, chunk), finishes them all and adds every exit to the tally. Returns the
+/// number of collisions.
+std::uint64_t walkHalfSpaceChunk(const HalfSpaceWalk& walk, std::uint64_t seed, std::uint64_t chunk,
+                                 std::uint64_t walks, ExitTally& tally);
+
+/// The instruction set that walkHalfSpaceChunk uses: "AVX3", "AVX2", "SSE4"...
+const char* halfSpaceInstructionSet();
+
+}  // namespace searchlight

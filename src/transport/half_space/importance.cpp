@@ -1,0 +1,113 @@
+#include "transport/half_space/importance.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+#include "transport/walk/fresnel.h"
+
+namespace searchlight {
+
+namespace {
+
+// What the total counts beside the rings: more would follow walks into depths from which no bin hears of them.
+constexpr double kTotal = 0.05;
+
+// Rate at which light dies out far from its source, per reduced mean free path: the largest kappa in
+// albedo = kappa / atanh(kappa), exact for isotropic scattering, and near enough for others.
+double asymptoticDecay(double absorbed) {
+    double low = 0, high = 1;
+    for (int i = 0; i < 60; ++i) {
+        const double kappa = 0.5 * (low + high);
+        // 1 - kappa / atanh(kappa) grows from 0 to 1; its series keeps digits near 0.
+        const double lost = kappa < 1e-3 ? kappa * kappa / 3 : 1 - kappa / std::atanh(std::min(kappa, 1 - 1e-16));
+        (lost < absorbed ? low : high) = kappa;
+    }
+    return low;
+}
+
+// Distance above the surface at which the diffuse flux seems to vanish, in reduced mean free paths: 2 A D with the
+// moments of the Fresnel reflectance ([dEonIrving2011] appendix).
+double extrapolation(double eta) {
+    double first = 0, second = 0;
+    constexpr int points = 256;
+    for (int i = 0; i < points; ++i) {
+        const double c = (i + 0.5) / points, reflected = internalReflectance(eta, c);
+        first += 2 * reflected * c / points;
+        second += 3 * reflected * c * c / points;
+    }
+    return 2.0 / 3 * (1 + second) / (1 - first);
+}
+
+struct Dipole {
+    double decay, extrapolation;
+
+    // Exitance at lateral distance^2 d2 of a source at depth z.
+    double operator()(double d2, double z) const {
+        const auto pole = [&](double depth) {
+            const double d = std::sqrt(d2 + depth * depth);
+            return depth * (1 + decay * d) * std::exp(-decay * d) / (d * d * d);
+        };
+        return pole(z) + pole(z + 2 * extrapolation);
+    }
+
+    // Mean over the circle of radius r for a source at distance rho from its axis.
+    double ring(double r, double rho, double z) const {
+        constexpr int azimuths = 8;
+        double sum = 0;
+        for (int i = 0; i < azimuths; ++i) {
+            const double c = std::cos((i + 0.5) * std::numbers::pi / azimuths);
+            sum += (*this)(r * r + rho * rho - 2 * r * rho * c, z);
+        }
+        return sum / azimuths;
+    }
+};
+
+}  // namespace
+
+ImportanceTable makeImportanceTable(const HalfSpaceWalk& walk, std::span<const double> edges) {
+    // Lengths in reduced mean free paths from here on.
+    const double reduced_rate = 1 - walk.g * (1 - walk.absorbed);
+    const Dipole dipole{asymptoticDecay(walk.absorbed / reduced_rate), extrapolation(walk.eta)};
+
+    // Bins closer than the first collision or farther than where walks can still be led get what comes.
+    constexpr double nearest = 0.3, farthest = 12;
+    constexpr int rings = 8;
+    const double low = std::clamp(edges.front() * reduced_rate, nearest, farthest);
+    const double high = std::clamp(edges.back() * reduced_rate, low, farthest);
+    double radii[rings], reference[rings];
+    for (int k = 0; k < rings; ++k) {
+        radii[k] = low * std::pow(high / low, static_cast<double>(k) / (rings - 1));
+        reference[k] = dipole.ring(radii[k], 0, 1);
+    }
+
+    ImportanceTable table;
+    table.decay = dipole.decay * reduced_rate;
+    const double unit = 0.35 / reduced_rate;  // the first cells reach this far
+    table.offset = static_cast<float>(unit * unit);
+    constexpr int n = ImportanceTable::kCells, shift = 23 - ImportanceTable::kMantissaBits;
+    double centres[n];
+    for (int i = 0; i < n; ++i) {
+        const auto bits = std::bit_cast<std::int32_t>(table.offset) + (i << shift) + (1 << (shift - 1));
+        centres[i] = std::sqrt(static_cast<double>(std::bit_cast<float>(bits)) - table.offset) * reduced_rate;
+    }
+    table.value.reserve(n * n);
+    for (const double z : centres)
+        for (const double rho : centres) {
+            // Root mean square over the rings: then the sum of their relative variances is small. The total counts a
+            // little, too: without it what leaves beyond the bins would rest on a few heavy walks.
+            const double leaves = kTotal * std::exp(-dipole.decay * z);
+            double square = leaves * leaves;
+            for (int k = 0; k < rings; ++k) {
+                const double gain = dipole.ring(radii[k], rho, z + 0.5) / reference[k];
+                square += gain * gain / rings;
+            }
+            // Bounds keep weights, their inverse, from running away.
+            table.value.push_back(static_cast<float>(std::clamp(std::sqrt(square), 1e-5, 1e3)));
+        }
+    return table;
+}
+
+}  // namespace searchlight

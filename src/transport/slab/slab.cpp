@@ -1,0 +1,363 @@
+#include "transport/slab/slab.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "base/text.h"
+#include "transport/slab/slab_walk.h"
+#include "transport/walk/fresnel.h"
+
+namespace searchlight {
+
+namespace {
+
+constexpr std::uint64_t kFewestChunks = 64;
+constexpr std::uint64_t kLargestChunk = 65'536;
+constexpr std::size_t kMostSlots = std::size_t{1} << 22;  // of which a few per thread are in memory at once
+constexpr double kLargest = 1e9;
+// Free paths in a clear layer: longer than anything, its products within float.
+constexpr double kClearMfp = 1e30;
+
+[[noreturn]] void reject(const std::string& what, double value, const char* valid) {
+    throw inputError(what + " is " + numberText(value), valid);
+}
+
+// Written so that NaN is rejected.
+void check(const SlabProblem& problem) {
+    const auto checkIndex = [](const std::string& what, double n) {
+        if (!(n >= 0.1 && n <= 10)) reject(what, n, "0.1 to 10");
+    };
+    checkIndex("the refractive index above", problem.n_above);
+    checkIndex("the refractive index below", problem.n_below);
+    if (!(problem.angle_deg >= 0 && problem.angle_deg < 90))
+        reject("the angle of incidence", problem.angle_deg, "0 to below 90 degrees");
+    if (problem.layers.empty()) throw inputError("a slab needs at least one layer");
+    for (std::size_t i = 0; i < problem.layers.size(); ++i) {
+        const SlabLayer& layer = problem.layers[i];
+        const auto what = [&](const char* quantity) { return fmt::format("{} of layer {}", quantity, i + 1); };
+        checkIndex(what("the refractive index"), layer.n);
+        if (!(layer.sigma_a >= 0 && layer.sigma_a <= kLargest)) reject(what("sigma_a"), layer.sigma_a, "0 to 1e9 1/mm");
+        if (!(layer.sigma_s >= 0 && layer.sigma_s <= kLargest)) reject(what("sigma_s"), layer.sigma_s, "0 to 1e9 1/mm");
+        if (!(layer.g > -1 && layer.g < 1)) reject(what("g"), layer.g, "above -1 and below 1");
+        const bool endless = std::isinf(layer.thickness_mm) && layer.thickness_mm > 0;
+        if (endless && i + 1 < problem.layers.size())
+            throw inputError(what("the thickness") + " is infinite", "only the last layer may be");
+        if (endless && layer.clear())
+            throw inputError(fmt::format("layer {} is infinite and clear", i + 1), "light would never end in it");
+        if (!endless && !(layer.thickness_mm >= 0 && layer.thickness_mm <= 10 * kLargest))
+            reject(what("the thickness"), layer.thickness_mm, "0 to 1e10 mm, or infinite in the last layer");
+    }
+}
+
+void check(const SlabOptions& options) {
+    if (options.walks == 0) throw inputError("a reference needs at least one walk");
+    const std::vector<double>& edges = options.edges_mm;
+    if (edges.size() < 2) throw inputError("radial bins need at least 2 edges");
+    if (!(edges.front() >= 0)) reject("the first edge", edges.front(), "0 mm or more");
+    for (std::size_t i = 1; i < edges.size(); ++i)
+        if (!(edges[i] > edges[i - 1] && edges[i] <= kLargest))
+            reject("an edge", edges[i], "edges ascend and end at 1e9 mm");
+    if (options.angles < 1) reject("the number of angles", options.angles, "1 or more");
+    if (options.depths < 1) reject("the number of depths", options.depths, "1 or more");
+    if (!(options.depth_mm > 0 && options.depth_mm <= kLargest))
+        reject("the depth of the tally", options.depth_mm, "above 0, up to 1e9 mm");
+    const double rows = static_cast<double>(edges.size()) + 1;
+    const double cells = 2.0 * options.angles + 2.0 * options.depths + 2;
+    if (options.maps ? rows * cells > kMostSlots : 4 * rows + cells > kMostSlots)
+        throw inputError("the tallies have more than 4 million cells", "fewer radial bins, angles or depths");
+}
+
+// Unpolarised; n sin = `invariant` on both sides.
+double reflectance(double n, double n_beyond, double invariant) {
+    if (n == n_beyond) return 0;
+    const double sine = invariant / n, sine_beyond = invariant / n_beyond;
+    if (sine >= 1 || sine_beyond >= 1) return 1;
+    const double c = std::sqrt((1 - sine) * (1 + sine)), t = std::sqrt((1 - sine_beyond) * (1 + sine_beyond));
+    return fresnelReflectance(n, c, n_beyond, t);
+}
+
+// The beam down to its first layer that is not clear (to below the slab when all are).
+struct Beam {
+    double specular = 0;
+    std::vector<SlabWalk::Surface> entry;
+    std::size_t first = 0;
+    double sine = 0;  ///< in that layer
+};
+
+Beam beamOf(const SlabProblem& problem) {
+    const double angle = problem.angle_deg * (std::numbers::pi / 180);
+    const double invariant = problem.n_above * std::sin(angle);
+    Beam beam;
+    double n = problem.n_above;
+    const std::vector<SlabLayer>& layers = problem.layers;
+    for (;; ++beam.first) {
+        const bool below = beam.first == layers.size();
+        const double next = below ? problem.n_below : layers[beam.first].n;
+        beam.entry.push_back({reflectance(n, next, invariant)});
+        n = next;
+        if (below || !layers[beam.first].clear()) break;
+        const double sine = std::min(invariant / n, 1.0);
+        // Beyond total reflection nothing gets here.
+        beam.entry.back().shift_mm =
+            sine < 1 ? layers[beam.first].thickness_mm * sine / std::sqrt((1 - sine) * (1 + sine)) : 0;
+    }
+    beam.sine = std::min(invariant / n, 1.0);
+    // Intensities add up between clear layers, from the lowest surface up; [Wang1995] does so for one layer.
+    for (auto surface = beam.entry.rbegin(); surface != beam.entry.rend(); ++surface) {
+        const double r = surface->reflectance, rest = beam.specular;
+        beam.specular = r == 1 ? 1 : r + (1 - r) * (1 - r) * rest / (1 - r * rest);
+    }
+    return beam;
+}
+
+// Which part of the collisions the tally counts: all would take more time than the walk. Where walks collide often
+// before they are absorbed, each collision says little that its neighbours do not. At least the absorbed ones, so that
+// counting those alone (the analogue estimator) is the end of the scale.
+double countedPart(const SlabLayer& layer) {
+    return std::clamp(2.5 * std::sqrt(layer.sigma_a / (layer.sigma_a + layer.sigma_s)), 1.0 / 16, 1.0);
+}
+
+SlabLayout::Layer countedCollision(const SlabLayer& layer, double top_mm) {
+    if (layer.clear()) return {top_mm, 0, 0};
+    const double counted = (layer.sigma_a + layer.sigma_s) * countedPart(layer);
+    return {top_mm, layer.sigma_a / counted, 1 / counted};
+}
+
+SlabWalk walkOf(const SlabProblem& problem, const Beam& beam) {
+    SlabWalk walk;
+    const std::vector<SlabLayer>& layers = problem.layers;
+    for (std::size_t i = 0; i < layers.size(); ++i) {
+        const SlabLayer& layer = layers[i];
+        const double sigma_t = layer.sigma_a + layer.sigma_s;
+        const double above = i == 0 ? problem.n_above : layers[i - 1].n;
+        const double below = i + 1 == layers.size() ? problem.n_below : layers[i + 1].n;
+        SlabWalk::Layer& into = walk.layers.emplace_back();
+        into.mfp_mm = layer.clear() ? kClearMfp : 1 / sigma_t;
+        into.absorbed = layer.clear() ? 0 : layer.sigma_a / sigma_t;
+        into.counted = layer.clear() ? 0 : countedPart(layer);
+        into.g = layer.g;
+        into.thickness_mm = layer.thickness_mm;
+        into.eta_up = layer.n / above;
+        into.eta_down = layer.n / below;
+    }
+    if (problem.angle_deg > 0 && beam.first > 0) walk.entry = beam.entry;
+    walk.first = static_cast<std::int32_t>(beam.first);
+    walk.sin_beam = beam.sine;
+    walk.cos_beam = std::sqrt((1 - beam.sine) * (1 + beam.sine));
+    return walk;
+}
+
+// How much of each depth bin is not clear, and the most that one counted collision there stands for.
+struct Occupied {
+    double length_mm = 0, absorbed = 0, fluence_mm = 0;
+};
+
+std::vector<Occupied> occupiedDepths(const SlabProblem& problem, const SlabOptions& options) {
+    std::vector<Occupied> bins(static_cast<std::size_t>(options.depths));
+    const double step = options.depth_mm / options.depths;
+    double top = 0;
+    for (const SlabLayer& layer : problem.layers) {
+        const double bottom = top + layer.thickness_mm;
+        const SlabLayout::Layer one = countedCollision(layer, top);
+        for (std::size_t i = 0; !layer.clear() && i < bins.size(); ++i) {
+            const double begin = step * static_cast<double>(i), end = step * static_cast<double>(i + 1);
+            const double length = std::min(bottom, end) - std::max(top, begin);
+            if (length <= 1e-9 * step) continue;  // the rounding of thicknesses that are multiples of the step
+            bins[i].length_mm += std::min(length, step);
+            bins[i].absorbed = std::max(bins[i].absorbed, one.absorbed);
+            bins[i].fluence_mm = std::max(bins[i].fluence_mm, one.fluence_mm);
+        }
+        top = bottom;
+    }
+    return bins;
+}
+
+// From sums over chunks to the numbers of the result.
+class Reduction {
+public:
+    Reduction(const SlabProblem& problem, const SlabOptions& options, const SlabLayout& layout, double transmitted)
+        : problem_(problem), options_(options), layout_(layout), transmitted_(transmitted), sums_(layout.slots()) {}
+
+    void add(const SlabTally& chunk, std::uint64_t walks) {
+        sums_.add(chunk.flux(), static_cast<double>(walks));
+        walked_ = true;
+    }
+
+    void finish(SlabResult& result) const {
+        result.R = total(SlabLayout::R_scattered);
+        result.R_single = total(SlabLayout::R_single);
+        result.R_multiple = total(SlabLayout::R_multiple);
+        result.R_unscattered = total(SlabLayout::R_unscattered);
+        result.T = total(SlabLayout::T_scattered);
+        result.T_unscattered = total(SlabLayout::T_unscattered);
+        result.A = total(SlabLayout::A_total);
+        for (std::size_t i = 0; i < problem_.layers.size(); ++i)
+            result.A_layer.push_back(problem_.layers[i].sigma_a > 0 ? total(SlabLayout::A_layer, i) : Estimate{});
+
+        const std::vector<double> areas = annuli(), solid = solidAngles(false), projected = solidAngles(true);
+        result.R_r = series(SlabLayout::R_r, 1, areas);
+        result.R_r_single = series(SlabLayout::R_r_single, 1, areas);
+        result.R_r_multiple = series(SlabLayout::R_r_multiple, 1, areas);
+        result.T_r = series(SlabLayout::T_r, 1, areas);
+        result.R_a = series(SlabLayout::R_a, 0, solid);
+        result.T_a = series(SlabLayout::T_a, 0, solid);
+        depths(result.A_z, result.fluence_z, SlabLayout::A_z, SlabLayout::F_z, 0, 1);
+        if (layout_.maps()) {
+            for (std::size_t row = 0; row < areas.size(); ++row) {
+                std::vector<double> cells = projected;
+                for (double& cell : cells) cell *= areas[row];
+                const std::size_t angle = (row + 1) * layout_.angles(), depth = (row + 1) * layout_.depths();
+                append(result.R_ra, series(SlabLayout::R_ra, angle, cells));
+                append(result.T_ra, series(SlabLayout::T_ra, angle, cells));
+                depths(result.A_rz, result.fluence_rz, SlabLayout::A_rz, SlabLayout::F_rz, depth, areas[row]);
+            }
+        }
+        for (std::size_t slot = 0; slot < layout_.slots(); ++slot) result.flux.push_back(flux(slot, 0).mean);
+    }
+
+private:
+    // Per unit incident flux. The scatter of batches without an event would be 0; one event is the least that can be
+    // said.
+    Estimate flux(std::size_t slot, double one_event) const {
+        if (!walked_) return {};  // no light came here: exact zeros
+        Estimate e = sums_.estimate(slot, options_.walks);
+        e.standard_error = std::max(e.standard_error, one_event / static_cast<double>(options_.walks));
+        return {transmitted_ * e.mean, transmitted_ * e.standard_error, e.count};
+    }
+
+    Estimate total(SlabLayout::Run run, std::size_t index = 0) const { return flux(layout_.first(run) + index, 1); }
+
+    static void push(SlabSeries& series, const Estimate& e, double measure) {
+        series.mean.push_back(e.mean / measure);
+        series.standard_error.push_back(e.standard_error / measure);
+    }
+
+    static void append(SlabSeries& to, const SlabSeries& more) {
+        to.mean.insert(to.mean.end(), more.mean.begin(), more.mean.end());
+        to.standard_error.insert(to.standard_error.end(), more.standard_error.begin(), more.standard_error.end());
+    }
+
+    // Slots of the run from `index` on, each over its measure.
+    SlabSeries series(SlabLayout::Run run, std::size_t index, const std::vector<double>& measures) const {
+        SlabSeries series;
+        for (std::size_t i = 0; i < measures.size(); ++i) push(series, total(run, index + i), measures[i]);
+        return series;
+    }
+
+    void depths(SlabSeries& A, SlabSeries& fluence, SlabLayout::Run A_run, SlabLayout::Run F_run, std::size_t index,
+                double area) const {
+        const double step = options_.depth_mm / options_.depths;
+        const std::vector<Occupied> bins = occupiedDepths(problem_, options_);
+        constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+        for (std::size_t i = 0; i < bins.size(); ++i) {
+            const auto& [length, absorbed_at_most, fluence_at_most] = bins[i];
+            push(A, flux(layout_.first(A_run) + index + i, absorbed_at_most), area * step);
+            if (length > 0)
+                push(fluence, flux(layout_.first(F_run) + index + i, fluence_at_most), area * length);
+            else
+                push(fluence, {nan, nan, 0}, 1);
+        }
+    }
+
+    std::vector<double> annuli() const {
+        const std::vector<double>& edges = options_.edges_mm;
+        std::vector<double> areas;
+        for (std::size_t i = 0; i + 1 < edges.size(); ++i)
+            areas.push_back(std::numbers::pi * (edges[i + 1] - edges[i]) * (edges[i + 1] + edges[i]));
+        return areas;
+    }
+
+    // Of the parts of the hemisphere, times the cosine if projected.
+    std::vector<double> solidAngles(bool projected) const {
+        const double step = 0.5 * std::numbers::pi / options_.angles;
+        std::vector<double> parts;
+        for (int i = 0; i < options_.angles; ++i) {
+            const double middle = (i + 0.5) * step;
+            parts.push_back(projected ? std::numbers::pi * std::sin(step) * std::sin(2 * middle)
+                                      : 4 * std::numbers::pi * std::sin(0.5 * step) * std::sin(middle));
+        }
+        return parts;
+    }
+
+    const SlabProblem& problem_;
+    const SlabOptions& options_;
+    const SlabLayout& layout_;
+    double transmitted_;
+    BatchRatios sums_;
+    bool walked_ = false;
+};
+
+std::uint64_t chunksOf(std::uint64_t walks) {
+    return std::min(walks, std::max(kFewestChunks, (walks + kLargestChunk - 1) / kLargestChunk));
+}
+
+}  // namespace
+
+SlabLayout slabLayout(const SlabProblem& problem, const SlabOptions& options) {
+    check(problem);
+    check(options);
+    std::vector<SlabLayout::Layer> layers;
+    double top = 0;
+    for (const SlabLayer& layer : problem.layers) {
+        layers.push_back(countedCollision(layer, top));
+        top += layer.thickness_mm;
+    }
+    return {options.edges_mm,
+            static_cast<std::size_t>(options.angles),
+            static_cast<std::size_t>(options.depths),
+            options.depth_mm,
+            options.maps,
+            std::move(layers)};
+}
+
+SlabResult walkSlab(const SlabProblem& problem, const SlabOptions& options, Observer& observer) {
+    const SlabLayout layout = slabLayout(problem, options);
+    const Beam beam = beamOf(problem);
+    SlabResult result;
+    result.specular = beam.specular;
+    result.threads = options.threads > 0 ? options.threads : hardwareThreads();
+    result.instruction_set = slabInstructionSet();
+    Reduction reduction(problem, options, layout, 1 - beam.specular);
+    if (beam.first == problem.layers.size() || beam.specular == 1) {  // nothing to walk in
+        reduction.finish(result);
+        result.T_unscattered = {1 - beam.specular, 0, 0};
+        return result;
+    }
+
+    const SlabWalk walk = walkOf(problem, beam);
+    const std::uint64_t chunks = chunksOf(options.walks);
+    const auto firstWalk = [&](std::uint64_t chunk) {  // chunks differ by at most one walk
+        return options.walks / chunks * chunk + std::min(options.walks % chunks, chunk);
+    };
+
+    // Blocks bound the memory; within a block threads take chunks as they come, and sums run in chunk order.
+    const std::uint64_t block = 4 * static_cast<std::uint64_t>(result.threads);
+    std::atomic<std::uint64_t> done = 0, collisions = 0;
+    const auto begin = std::chrono::steady_clock::now();
+    for (std::uint64_t start = 0; start < chunks; start += block) {
+        std::vector<SlabTally> tallies(std::min(block, chunks - start), SlabTally(layout));
+        parallelFor(tallies.size(), options.threads, [&](std::size_t i) {
+            if (observer.cancelled()) throw interruptedError();
+            const std::uint64_t chunk = start + i, walks = firstWalk(chunk + 1) - firstWalk(chunk);
+            collisions += walkSlabChunk(walk, options.seed, chunk, walks, tallies[i]);
+            observer.progress("walk", done += walks, options.walks, "walks");
+        });
+        for (std::size_t i = 0; i < tallies.size(); ++i)
+            reduction.add(tallies[i], firstWalk(start + i + 1) - firstWalk(start + i));
+    }
+    result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    result.walks = options.walks;
+    result.collisions = collisions;
+    reduction.finish(result);
+    return result;
+}
+
+}  // namespace searchlight

@@ -1,0 +1,90 @@
+// A pencil beam on plane layers by unbiased Monte Carlo: MCML's problem, oblique incidence as well.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/estimate.h"
+#include "base/observer.h"
+#include "transport/slab/slab_tally.h"
+
+namespace searchlight {
+
+/// One plane layer between smooth Fresnel surfaces. One that neither absorbs nor scatters is clear: glass, or a gap.
+struct SlabLayer {
+    double n = 1;             ///< refractive index
+    double sigma_a = 0;       ///< 1/mm
+    double sigma_s = 0;       ///< 1/mm, not reduced
+    double g = 0;             ///< Henyey-Greenstein mean cosine, |g| < 1
+    double thickness_mm = 1;  ///< infinity in the last layer: a half-space
+
+    bool clear() const { return sigma_a == 0 && sigma_s == 0; }
+    bool operator==(const SlabLayer&) const = default;
+};
+
+struct SlabProblem {
+    double n_above = 1, n_below = 1;
+    std::vector<SlabLayer> layers;  ///< from the top, where the beam comes from
+    double angle_deg = 0;           ///< of incidence above, [0, 90); the refracted beam leans towards +x
+
+    bool operator==(const SlabProblem&) const = default;
+};
+
+struct SlabOptions {
+    std::uint64_t walks = 1'000'000;
+    std::uint64_t seed = 1;
+    std::vector<double> edges_mm;  ///< of the annuli about the point where the beam meets the slab; first >= 0
+    int angles = 30;               ///< equal parts of 90 degrees
+    int depths = 100;              ///< equal parts of depth_mm
+    double depth_mm = 0;           ///< from the top of the slab
+    bool maps = false;             ///< the tallies over two variables, too
+    int threads = 0;               ///< 0: all
+};
+
+struct SlabSeries {
+    std::vector<double> mean, standard_error;
+};
+
+/// Per unit incident flux. What was never scattered is kept apart from R, T and their series. Standard errors are those
+/// of the chunks, never below that of one walk. An annulus beyond the last edge and depths beyond depth_mm are in the
+/// totals alone.
+struct SlabResult {
+    double specular = 0;                       ///< of the beam at the top and at clear layers there: exact
+    Estimate R, R_single, R_multiple;          ///< diffuse reflectance: all, scattered once, more often
+    Estimate R_unscattered;                    ///< back from an interface further below, without a collision
+    Estimate T, T_unscattered;                 ///< transmittance: scattered; not
+    Estimate A;                                ///< absorbed
+    std::vector<Estimate> A_layer;             ///< of that, in each layer
+    SlabSeries R_r, R_r_single, R_r_multiple;  ///< mean over each annulus, 1/mm^2
+    SlabSeries T_r;                            ///< on the lower surface, 1/mm^2
+    SlabSeries R_a, T_a;                       ///< over the angle of the direction outside, 1/sr
+    SlabSeries A_z;                            ///< 1/mm; from collisions, so its sum meets A within errors
+    SlabSeries fluence_z;                      ///< A_z / sigma_a, also where sigma_a is 0; NaN in bins that are clear
+    /// The maps, empty unless asked for; row-major, the annulus first.
+    SlabSeries R_ra, T_ra;     ///< radiance, 1/(mm^2 sr): per solid angle times cosine
+    SlabSeries A_rz;           ///< 1/mm^3
+    SlabSeries fluence_rz;     ///< 1/mm^2
+    std::vector<double> flux;  ///< mean per slot of slabLayout, for writers that need what the series leave out
+    std::uint64_t walks = 0;
+    std::uint64_t collisions = 0;
+    double seconds = 0;  ///< wall time of walking
+    int threads = 0;
+    std::string instruction_set;  ///< "AVX3" (AVX-512), "AVX2", "SSE4"...
+};
+
+/// Where the walk counts what. Throws as walkSlab.
+SlabLayout slabLayout(const SlabProblem& problem, const SlabOptions& options);
+
+/// Walks. The result depends on problem, walks, seed and the tallies' layout alone, not on threads; AVX2 and AVX-512
+/// agree bit for bit. Throws an input Error for an impossible problem, interruptedError() when the observer cancels.
+SlabResult walkSlab(const SlabProblem& problem, const SlabOptions& options, Observer& observer);
+
+/// Reads `{"format": "searchlight-layers/1", "n_above", "n_below", "layers": [{"n", "sigma_a", "sigma_s", "g",
+/// "thickness_mm"}]}`; thickness_mm of the last layer may be "infinite". Throws an input Error with file, line, column
+/// and JSON pointer.
+SlabProblem parseLayers(std::string_view text, std::string_view path);
+
+}  // namespace searchlight

@@ -1,0 +1,331 @@
+// The analogue walk through layers, 64 at a time: half_space_walk.cpp with a surface below as well, and layers.
+//
+// A step that would leave its layer ends at the interface; free paths have no memory, so the walk goes on from there
+// with a new one. Depths are counted from the top of the layer, so that a walk stands exactly on the interface that it
+// has reached, and float is fine for the reasons given there. What a lane knows of its layer stands beside its walk and
+// changes only where it crosses an interface: the step itself gathers nothing.
+#include "transport/slab/slab_walk.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <utility>
+
+#include "transport/walk/long_walk.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "transport/slab/slab_walk.cpp"
+// As in half_space_walk.cpp.
+#define HWY_DISABLED_TARGETS HWY_SSSE3
+#define HWY_BROKEN_EMU128 0
+#include <hwy/foreach_target.h>
+
+#include "transport/walk/lane_walk-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace searchlight {
+namespace HWY_NAMESPACE {
+namespace {
+
+constexpr std::size_t kEndCapacity = 1024;
+
+// What changes at events only.
+struct alignas(64) Layers {
+    std::int32_t index[kLanes];
+    float mfp[kLanes], thickness[kLanes];
+    float g[kLanes], half_qq[kLanes];
+    std::int32_t absorbed[kLanes];  // probability, in units of 2^-30
+    std::int32_t counted[kLanes];   // the same
+    std::int32_t survives[kLanes];  // so many collisions; the next one meets the roulette of long walks
+    std::int32_t fate[kLanes];      // all ones: absorbed by the collision of the current step
+};
+
+struct Ends {
+    // Whole vectors are stored at the end.
+    float x[kEndCapacity + 16], y[kEndCapacity + 16], depth_or_cosine[kEndCapacity + 16];
+    std::int32_t collisions[kEndCapacity + 16], layer[kEndCapacity + 16];
+    std::size_t count = 0;
+
+    HWY_INLINE void add(FloatM mask, FloatV px, FloatV py, FloatV value, IntV n, IntV index) {
+        const Float d;
+        const Int di;
+        const hn::Mask<Int> mask_i = hn::RebindMask(di, mask);
+        storeSet(px, mask, d, x + count);
+        storeSet(py, mask, d, y + count);
+        storeSet(value, mask, d, depth_or_cosine + count);
+        storeSet(n, mask_i, di, collisions + count);
+        storeSet(index, mask_i, di, layer + count);
+        count += hn::CountTrue(d, mask);
+    }
+    bool full() const { return count >= kEndCapacity - 16; }
+    SlabTally::Ends take() {
+        const std::size_t n = std::exchange(count, 0);
+        return {{x, n}, {y, n}, {depth_or_cosine, n}, {collisions, n}, {layer, n}};
+    }
+};
+
+template <bool kIsotropic>
+class SlabWalker {
+public:
+    SlabWalker(const SlabWalk& walk, SplitMix64 seeds, std::uint64_t walks, SlabTally& tally)
+        : walk_(walk), waiting_(walks), tally_(tally), count_(static_cast<int>(walk.layers.size())) {
+        for (const SlabWalk::Layer& layer : walk.layers) {
+            mfp_.push_back(static_cast<float>(layer.mfp_mm));
+            thickness_.push_back(static_cast<float>(layer.thickness_mm));
+            g_.push_back(static_cast<float>(layer.g));
+            half_qq_.push_back(static_cast<float>(0.5 * (1 - layer.g) * (1 - layer.g)));
+            absorbed_.push_back(static_cast<std::int32_t>(std::lround(layer.absorbed * 0x1p30)));
+            counted_.push_back(static_cast<std::int32_t>(std::lround(layer.counted * 0x1p30)));
+            eta_.push_back(static_cast<float>(layer.eta_down));
+            eta_.push_back(static_cast<float>(layer.eta_up));
+        }
+        seed(*from_, seeds);
+        rare_ = SplitMix64(seeds.next());
+    }
+
+    std::uint64_t run() {
+        const std::uint64_t steps = walkAll(*this, from_, to_);
+        tally_.addExits(exits_.take());
+        tally_.addAbsorbed(absorptions_.take());
+        tally_.addCollisions(collisions_.take());
+        return steps - crossings_;  // a step ends in a collision or at an interface
+    }
+
+    // Walks to the next collision as if the layer had no end, and scatters. True when a walk of the pack left its
+    // layer, was absorbed or has become long.
+    HWY_INLINE bool advance(std::size_t at) {
+        const Float d;
+        const Int di;
+        Pack pack = load(*from_, at);
+        const FloatV length = hn::Mul(exponential(pack.random.next()), hn::Load(d, layers_.mfp + at));
+        fly(pack, length);
+        // 30 bits: what a smaller probability loses, below 5e-10 a collision, no sum of walks resolves.
+        const hn::RebindToUnsigned<Int> du;
+        const IntV chance = hn::BitCast(di, hn::ShiftRight<2>(hn::BitCast(du, pack.random.next())));
+        const hn::Mask<Int> absorbed = hn::Lt(chance, hn::Load(di, layers_.absorbed + at));
+        hn::Store(hn::VecFromMask(di, absorbed), di, layers_.fate + at);
+        const FloatM crosses = outside(pack, at);
+        const FloatM counted = hn::RebindMask(d, hn::Lt(chance, hn::Load(di, layers_.counted + at)));
+        count(pack, hn::AndNot(crosses, counted), at);
+
+        scatter<kIsotropic>(pack, hn::Load(d, layers_.g + at), hn::Load(d, layers_.half_qq + at));
+        store(pack, *to_, at);
+        const hn::Mask<Int> is_long = hn::Gt(pack.collisions, hn::Load(di, layers_.survives + at));
+        return !hn::AllFalse(d, hn::Or(crosses, hn::RebindMask(d, hn::Or(absorbed, is_long))));
+    }
+
+    // What interfaces, absorption and the roulette do to the step just made; new walks in the place of those that
+    // ended. Returns the number of lanes that found none.
+    HWY_INLINE std::size_t settle(std::size_t at) {
+        const Float d;
+        const Int di;
+        Pack pack = load(*to_, at);
+        const FloatM crosses = outside(pack, at);
+        const IntV index = hn::Load(di, layers_.index + at);
+        FloatM free = hn::MaskFromVec(hn::Zero(d));
+        if (!hn::AllFalse(d, crosses)) free = cross(pack, crosses, index, at);
+
+        const FloatM collides = hn::Not(crosses);
+        FloatM absorbed = hn::And(collides, hn::RebindMask(d, hn::MaskFromVec(hn::Load(di, layers_.fate + at))));
+        const FloatM is_long =
+            hn::And(collides, hn::RebindMask(d, hn::Gt(pack.collisions, hn::Load(di, layers_.survives + at))));
+        if (!hn::AllFalse(d, is_long)) {
+            const FloatM killed = rouletteLong(pack.collisions, is_long, at);
+            absorbed = hn::AndNot(killed, absorbed);
+            free = hn::Or(free, killed);
+        }
+        if (!hn::AllFalse(d, absorbed)) absorptions_.add(absorbed, pack.x, pack.y, pack.z, pack.collisions, index);
+        if (absorptions_.full()) tally_.addAbsorbed(absorptions_.take());
+        free = hn::Or(free, absorbed);
+        const std::size_t parked = hn::AllFalse(d, free) ? 0 : hn::CountTrue(d, free) - start(pack, free, at);
+        store(pack, *to_, at);
+        return parked;
+    }
+
+    // Starts a walk in every free lane while any wait, in lane order; parks the others. Returns the number started.
+    HWY_INLINE std::size_t start(Pack& pack, FloatM free, std::size_t at) {
+        const Float d;
+        const Int di;
+        std::size_t started = hn::CountTrue(d, free);
+        const bool all_start = started <= waiting_;
+        if (!all_start) started = static_cast<std::size_t>(waiting_);
+        waiting_ -= started;
+        moveToEntry(pack, free, walk_.sin_beam, walk_.cos_beam);
+        if (walk_.entry.size() > 1) pack.x = hn::IfThenElse(free, entryShifts(free, started), pack.x);
+        enter(free, hn::Set(di, walk_.first), at);
+        storeWhere(hn::RebindMask(di, free), hn::Set(di, kLongWalk), layers_.survives + at);
+        if (!all_start) park(free, started, at);
+        return started;
+    }
+
+private:
+    HWY_INLINE FloatM outside(const Pack& pack, std::size_t at) const {
+        const Float d;
+        return hn::Or(hn::Lt(pack.z, hn::Zero(d)), hn::Gt(pack.z, hn::Load(d, layers_.thickness + at)));
+    }
+
+    // Counts collisions, before a roulette that they may bring.
+    HWY_INLINE void count(const Pack& pack, FloatM counted, std::size_t at) {
+        if (hn::AllFalse(Float(), counted)) return;
+        collisions_.add(counted, pack.x, pack.y, pack.z, pack.collisions, hn::Load(Int(), layers_.index + at));
+        if (collisions_.full()) tally_.addCollisions(collisions_.take());
+    }
+
+    // Takes the walks that left their layer to the interface, where they are reflected or pass. Returns those that left
+    // the slab.
+    HWY_INLINE FloatM cross(Pack& pack, FloatM crosses, IntV index, std::size_t at) {
+        const Float d;
+        const Int di;
+        const Pack before = load(*from_, at);
+        const Direction& in = before.direction;
+        const FloatM up = hn::Lt(in.w, hn::Zero(d));
+        const hn::Mask<Int> up_i = hn::RebindMask(di, up);
+        const FloatV interface = hn::IfThenZeroElse(up, hn::Load(d, layers_.thickness + at));
+        const FloatV length = hn::Div(hn::Sub(interface, before.z), in.w);
+        const IntV side = hn::IfThenElseZero(up_i, hn::Set(di, 1));
+        const FloatV eta = hn::GatherIndex(d, eta_.data(), hn::Add(hn::Add(index, index), side));
+        const Refraction ray = fresnel(hn::Abs(in.w), eta);
+        const FloatM passes = hn::And(crosses, hn::Ge(uniform(pack.random.nextWhere(crosses)), ray.reflectance));
+
+        const IntV beyond = hn::Add(index, hn::IfThenElse(up_i, hn::Set(di, -1), hn::Set(di, 1)));
+        const FloatM is_out =
+            hn::RebindMask(d, hn::Or(hn::Lt(beyond, hn::Zero(di)), hn::Gt(beyond, hn::Set(di, count_ - 1))));
+        const FloatM leaves = hn::And(passes, is_out), enters = hn::AndNot(is_out, passes);
+        pack.x = hn::IfThenElse(crosses, hn::MulAdd(length, in.u, before.x), pack.x);
+        pack.y = hn::IfThenElse(crosses, hn::MulAdd(length, in.v, before.y), pack.y);
+        pack.z = hn::IfThenElse(crosses, interface, pack.z);
+        pack.collisions = hn::IfThenElse(hn::RebindMask(di, crosses), before.collisions, pack.collisions);
+        pack.direction.u = hn::IfThenElse(crosses, hn::IfThenElse(passes, hn::Mul(eta, in.u), in.u), pack.direction.u);
+        pack.direction.v = hn::IfThenElse(crosses, hn::IfThenElse(passes, hn::Mul(eta, in.v), in.v), pack.direction.v);
+        pack.direction.w = hn::IfThenElse(
+            crosses, hn::IfThenElse(passes, hn::CopySign(ray.cosine, in.w), hn::Neg(in.w)), pack.direction.w);
+        if (!hn::AllFalse(d, enters)) {
+            enter(enters, beyond, at);
+            pack.z = hn::IfThenElse(enters, hn::IfThenElseZero(up, hn::Load(d, layers_.thickness + at)), pack.z);
+        }
+        if (!hn::AllFalse(d, leaves)) {
+            exits_.add(leaves, pack.x, pack.y, ray.cosine, pack.collisions, beyond);
+            if (exits_.full()) tally_.addExits(exits_.take());
+        }
+        crossings_ += hn::CountTrue(d, crosses);
+        return leaves;
+    }
+
+    // Puts lanes into the layer of that index.
+    HWY_INLINE void enter(FloatM enters, IntV index, std::size_t at) {
+        const Float d;
+        const Int di;
+        const hn::Mask<Int> enters_i = hn::RebindMask(di, enters);
+        const IntV valid = hn::IfThenElseZero(enters_i, index);
+        const auto set = [&](float* lanes, const std::vector<float>& table) HWY_ATTR {
+            const FloatV old = hn::Load(d, lanes + at);
+            hn::Store(hn::IfThenElse(enters, hn::GatherIndex(d, table.data(), valid), old), d, lanes + at);
+        };
+        set(layers_.mfp, mfp_);
+        set(layers_.thickness, thickness_);
+        if constexpr (!kIsotropic) {
+            set(layers_.g, g_);
+            set(layers_.half_qq, half_qq_);
+        }
+        storeWhere(enters_i, hn::GatherIndex(di, absorbed_.data(), valid), layers_.absorbed + at);
+        storeWhere(enters_i, hn::GatherIndex(di, counted_.data(), valid), layers_.counted + at);
+        storeWhere(enters_i, index, layers_.index + at);
+    }
+
+    // Of the free lanes, those beyond the first `started` stand still from now on, in a layer without end.
+    HWY_NOINLINE void park(FloatM free, std::size_t started, std::size_t at) {
+        forEachLane(free, [&](std::size_t lane, std::size_t i) {
+            if (i < started) return;
+            layers_.mfp[at + lane] = 0;
+            layers_.thickness[at + lane] = std::numeric_limits<float>::infinity();
+            layers_.absorbed[at + lane] = layers_.counted[at + lane] = 0;
+            layers_.survives[at + lane] = kNever;
+        });
+    }
+
+    // Where the beam enters its first layer that scatters or absorbs, after reflections between the clear ones above.
+    HWY_NOINLINE FloatV entryShifts(FloatM free, std::size_t started) {
+        HWY_ALIGN float shifts[16] = {};
+        forEachLane(free, [&](std::size_t lane, std::size_t i) {
+            if (i < started) shifts[lane] = entryShift();
+        });
+        return hn::Load(Float(), shifts);
+    }
+
+    float entryShift() {
+        const std::vector<SlabWalk::Surface>& surfaces = walk_.entry;
+        const auto below = static_cast<std::ptrdiff_t>(surfaces.size());
+        for (;;) {  // until one enters: those that do not are the specular part, which is known
+            double shift = 0;
+            std::ptrdiff_t next = 0;  // surface ahead
+            bool down = true;
+            while (next >= 0 && next < below) {
+                const bool reflected = rare_.uniform() < surfaces[static_cast<std::size_t>(next)].reflectance;
+                if (reflected) down = !down;
+                // Behind the surface when reflected, beyond it otherwise, lies the layer to cross.
+                const std::ptrdiff_t layer = down ? next : next - 1;
+                if (layer >= 0 && layer + 1 < below) shift += surfaces[static_cast<std::size_t>(layer)].shift_mm;
+                next += down ? 1 : -1;
+            }
+            if (down) return static_cast<float>(shift);
+        }
+    }
+
+    HWY_NOINLINE FloatM rouletteLong(IntV collisions, FloatM is_long, std::size_t at) {
+        const Float d;
+        HWY_ALIGN std::int32_t count[16];
+        HWY_ALIGN float killed[16] = {};
+        hn::Store(collisions, Int(), count);
+        forEachLane(is_long, [&](std::size_t lane, std::size_t) {
+            std::int32_t& survives = layers_.survives[at + lane];
+            if (survives == kLongWalk) survives = longWalkSurvives(rare_);
+            if (count[lane] > survives) killed[lane] = 1;
+        });
+        return hn::Ne(hn::Load(d, killed), hn::Zero(d));
+    }
+
+    const SlabWalk& walk_;
+    std::uint64_t waiting_;  // walks not yet started
+    std::uint64_t crossings_ = 0;
+    SplitMix64 rare_;
+    SlabTally& tally_;
+    std::int32_t count_;
+    std::vector<float> mfp_, thickness_, g_, half_qq_;
+    std::vector<float> eta_;  // per layer: downwards, upwards
+    std::vector<std::int32_t> absorbed_, counted_;
+    Lanes lanes_[2];
+    Lanes *from_ = &lanes_[0], *to_ = &lanes_[1];  // before and after the current step
+    Layers layers_;
+    Ends exits_, absorptions_, collisions_;
+};
+
+}  // namespace
+
+std::uint64_t walkSlab(const SlabWalk& walk, SplitMix64 seeds, std::uint64_t walks, SlabTally& tally) {
+    const bool isotropic = std::ranges::all_of(walk.layers, [](const SlabWalk::Layer& layer) { return layer.g == 0; });
+    return isotropic ? std::make_unique<SlabWalker<true>>(walk, seeds, walks, tally)->run()
+                     : std::make_unique<SlabWalker<false>>(walk, seeds, walks, tally)->run();
+}
+
+const char* slabTarget() { return hwy::TargetName(HWY_TARGET); }
+
+}  // namespace HWY_NAMESPACE
+}  // namespace searchlight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace searchlight {
+
+HWY_EXPORT(walkSlab);
+HWY_EXPORT(slabTarget);
+
+std::uint64_t walkSlabChunk(const SlabWalk& walk, std::uint64_t seed, std::uint64_t chunk, std::uint64_t walks,
+                            SlabTally& tally) {
+    return HWY_DYNAMIC_DISPATCH(walkSlab)(walk, streamOf(seed, chunk), walks, tally);
+}
+
+const char* slabInstructionSet() { return HWY_DYNAMIC_DISPATCH(slabTarget)(); }
+
+}  // namespace searchlight
+#endif

@@ -1,0 +1,41 @@
+// One chunk of walks through plane layers, in the widest instruction set of this machine.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "transport/slab/slab_tally.h"
+
+namespace searchlight {
+
+/// What a walk knows of its slab. Lengths are in mm.
+struct SlabWalk {
+    struct Layer {
+        double mfp_mm = 1;    ///< 1 / sigma_t; a huge number where nothing happens
+        double absorbed = 0;  ///< 1 - albedo
+        double counted = 0;   ///< part of the collisions that the tally counts, at least `absorbed`
+        double g = 0;
+        double thickness_mm = 1;  ///< infinity: the last layer has no lower surface
+        double eta_up = 1;        ///< refractive index of this layer over that above
+        double eta_down = 1;      ///< over that below
+    };
+    std::vector<Layer> layers;
+    /// The beam enters `first` through the clear layers above it, where it crossed `entry` surfaces: it is reflected
+    /// at surface i with probability reflectance and shifts by shift_mm across the layer above surface i + 1.
+    struct Surface {
+        double reflectance = 0, shift_mm = 0;
+    };
+    std::vector<Surface> entry;
+    std::int32_t first = 0;
+    double sin_beam = 0, cos_beam = 1;  ///< in that layer; leans towards +x
+};
+
+/// Starts `walks` walks of the stream (seed, chunk), finishes them all and adds every end to the tally. Returns the
+/// number of collisions.
+std::uint64_t walkSlabChunk(const SlabWalk& walk, std::uint64_t seed, std::uint64_t chunk, std::uint64_t walks,
+                            SlabTally& tally);
+
+/// The instruction set that walkSlabChunk uses: "AVX3", "AVX2", "SSE4"...
+const char* slabInstructionSet();
+
+}  // namespace searchlight
