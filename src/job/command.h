@@ -1,5 +1,5 @@
-// The table of commands. A command is one file command_x.cpp and one row in commands.cpp; command line, job files and
-// the reference page come from its Params.
+// The table of commands. A command is one file command_x.cpp, which says what it is called and takes, and one
+// line in commands.cpp. Command line, job files and the reference page come from its Params.
 #pragma once
 
 #include <span>

@@ -5,6 +5,7 @@
 
 #include "job/command_table.h"
 #include "job/json.h"
+#include "job/shared_options.h"
 #include "validate/check.h"
 
 namespace searchlight {
@@ -13,8 +14,6 @@ namespace {
 
 // In the order of CheckResult::Outcome; what failed stands out.
 constexpr std::array marks{"pass", "FAIL", "note", "skip"};
-
-}  // namespace
 
 JobResult runCheck(const Job& job, Engine& engine, Observer& observer) {
     const Options options(job);
@@ -52,6 +51,19 @@ JobResult runCheck(const Job& job, Engine& engine, Observer& observer) {
     document["skipped"] = skipped;
     result.json = document.dump(1);
     return result;
+}
+
+}  // namespace
+
+Command checkCommand() {
+    return {.name = "check",
+            .summary = "Check a model file: does it compile, is it physical, is it portable",
+            .example = "searchlight check models/dipole.bssrdf",
+            .options =
+                {{.name = "model", .type = ParamType::text, .doc = "a .bssrdf file or a model's id", .required = true},
+                 option::set()},
+            .positional = "model",
+            .run = runCheck};
 }
 
 }  // namespace searchlight

@@ -26,8 +26,6 @@ std::vector<std::string> instructionSets() {
     return found;
 }
 
-}  // namespace
-
 JobResult runDoctor(const Job& job, Engine&, Observer&) {
     Json document = documentJson("searchlight-doctor/1", job);
     JobResult result;
@@ -81,6 +79,15 @@ JobResult runDoctor(const Job& job, Engine&, Observer&) {
     result.passed = any;
     result.json = document.dump(1);
     return result;
+}
+
+}  // namespace
+
+Command doctorCommand() {
+    return {.name = "doctor",
+            .summary = "Say what this machine has and what is missing",
+            .example = "searchlight doctor",
+            .run = runDoctor};
 }
 
 }  // namespace searchlight

@@ -5,6 +5,7 @@
 #include "base/text.h"
 #include "job/command_table.h"
 #include "job/json.h"
+#include "job/shared_options.h"
 #include "model/inversion.h"
 
 namespace searchlight {
@@ -14,8 +15,6 @@ namespace {
 Rgb spread(const std::vector<double>& list) {
     return list.size() == 1 ? Rgb{list[0], list[0], list[0]} : Rgb{list[0], list[1], list[2]};
 }
-
-}  // namespace
 
 JobResult runInvert(const Job& job, Engine& engine, Observer& observer) {
     const Options options(job);
@@ -72,6 +71,36 @@ JobResult runInvert(const Job& job, Engine& engine, Observer& observer) {
                                      inversion.reachable_max[c]));
     }
     return result;
+}
+
+}  // namespace
+
+Command invertCommand() {
+    return {
+        .name = "invert",
+        .summary = "Find sigma_a and sigma_s' from reflectance and mean free path",
+        .example = "searchlight invert --model dipole --Rdr 0.44,0.22,0.13 --ld 3.673,1.367,0.683 --eta 1.3",
+        .options = {option::model(),
+                    option::set(),
+                    {.name = "Rdr",
+                     .type = ParamType::channels,
+                     .min = 0,
+                     .max = 1,
+                     .doc = "total diffuse reflectance",
+                     .required = true,
+                     .exclusive = true},
+                    {.name = "ld",
+                     .type = ParamType::channels,
+                     .unit = "mm",
+                     .min = 0,
+                     .max = option::unlimited,
+                     .doc = "diffuse mean free path",
+                     .required = true,
+                     .exclusive = true},
+                    {.name = "eta", .min = .25, .max = 4, .value = 1.3, .doc = "refractive index, inside over outside"},
+                    {.name = "g", .min = -.99, .max = .99, .value = 0.0, .doc = "mean cosine, to unreduce sigma_s'"},
+                    option::backend()},
+        .run = runInvert};
 }
 
 }  // namespace searchlight

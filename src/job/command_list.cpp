@@ -8,6 +8,8 @@
 
 namespace searchlight {
 
+namespace {
+
 JobResult runModels(const Job& job, Engine&, Observer&) {
     Json document = documentJson("searchlight-models/1", job);
     document["models"] = Json::array();
@@ -62,6 +64,22 @@ JobResult runMaterials(const Job& job, Engine&, Observer&) {
     result.text += "sigma in 1/mm; sigma_s is not reduced, or stands for sigma_s' where g is 0 (--json says which).\n";
     result.json = document.dump(1);
     return result;
+}
+
+}  // namespace
+
+Command modelsCommand() {
+    return {.name = "models",
+            .summary = "List the models, with their parameters",
+            .example = "searchlight models",
+            .run = runModels};
+}
+
+Command materialsCommand() {
+    return {.name = "materials",
+            .summary = "List the measured materials",
+            .example = "searchlight materials",
+            .run = runMaterials};
 }
 
 }  // namespace searchlight

@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "job/command_table.h"
+#include "job/shared_options.h"
 #include "job/slab_json.h"
 #include "transport/mcml/mcml_run.h"
 
@@ -18,8 +19,6 @@ SlabOptions walkOf(const McmlRun& run, const Job& job, const Options& options) {
     walk.threads = static_cast<int>(options.number("threads"));
     return walk;
 }
-
-}  // namespace
 
 JobResult runMcml(const Job& job, Engine&, Observer& observer) {
     const Options options(job);
@@ -57,6 +56,22 @@ JobResult runMcml(const Job& job, Engine&, Observer& observer) {
     result.json = document.dump(1);
     if (!job.output.empty()) writeFile(job.output, result.json + "\n");
     return result;
+}
+
+}  // namespace
+
+Command mcmlCommand() {
+    return {
+        .name = "mcml",
+        .summary = "Walk the runs of an MCML input file and write its output files",
+        .example = "searchlight mcml sample.mci",
+        .options = {{.name = "input", .type = ParamType::path, .doc = "an .mci file, version 1.0", .required = true},
+                    option::walks(1e6, "walks", "random walks of every run; absent: the photons of the file"),
+                    option::threads()},
+        .positional = "input",
+        .uses_seed = true,
+        .output = "a JSON document with every standard error, beside the .mco files",
+        .run = runMcml};
 }
 
 }  // namespace searchlight

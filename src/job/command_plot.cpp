@@ -13,6 +13,7 @@
 #include "job/command_table.h"
 #include "job/curves.h"
 #include "job/json.h"
+#include "job/shared_options.h"
 #include "model/plane.h"
 
 namespace searchlight {
@@ -104,8 +105,6 @@ PencilData pencilData(const Job& job, Engine& engine, Observer& observer, bool n
     return data;
 }
 
-}  // namespace
-
 JobResult runPlotPencil(const Job& job, Engine& engine, Observer& observer) {
     const Options options(job);
     PencilData data = pencilData(job, engine, observer, false);
@@ -126,6 +125,66 @@ JobResult runPlotAlbedo(const Job& job, Engine& engine, Observer& observer) {
                                        options.text("backend"), engine, observer);
     return finish(albedoFigure(data.models, data.reference ? &*data.reference : nullptr, options.number("eta")), job,
                   observer);
+}
+
+}  // namespace
+
+Command plotPencilCommand() {
+    return {.name = "plot pencil",
+            .summary = "Plot the searchlight profiles of models, beside the reference",
+            .example =
+                "searchlight plot pencil --material skin1 --models dipole,better_dipole --reference-walks 1e6 -o "
+                "pencil.svg",
+            .options = {option::models(),
+                        option::walks(0, "reference_walks", "random walks of the reference per channel; 0: none", 0),
+                        option::channel(),
+                        option::scale("x_scale", "lin"),
+                        option::scale("y_scale", "log"),
+                        {.name = "times_radius",
+                         .type = ParamType::integer,
+                         .min = 0,
+                         .max = 2,
+                         .value = 0.0,
+                         .doc = "plot R_d r^n"},
+                        option::solo(),
+                        option::angle(),
+                        option::radiiMax(),
+                        option::bins(64),
+                        option::backend(),
+                        option::threads()},
+            .uses_material = true,
+            .uses_seed = true,
+            .output = "figure: .svg, .png, .pdf or .csv",
+            .run = runPlotPencil};
+}
+
+Command plotErrorCommand() {
+    return {.name = "plot error",
+            .summary = "Plot the relative error of models against the reference",
+            .example = "searchlight plot error --material skin1 --models all --reference-walks 1e6 -o error.svg",
+            .options = {option::models(),
+                        option::walks(1e6, "reference_walks", "random walks of the reference per channel"),
+                        option::channel(), option::scale("x_scale", "sqrt"), option::solo(), option::angle(),
+                        option::radiiMax(), option::bins(64), option::backend(), option::threads()},
+            .uses_material = true,
+            .uses_seed = true,
+            .output = "figure: .svg, .png, .pdf or .csv",
+            .run = runPlotError};
+}
+
+Command plotAlbedoCommand() {
+    return {
+        .name = "plot albedo",
+        .summary = "Plot total diffuse reflectance against albedo",
+        .example = "searchlight plot albedo --eta 1.3 --reference-walks 1e5 -o albedo.svg",
+        .options = {option::models(),
+                    {.name = "eta", .min = .25, .max = 4, .value = 1.3, .doc = "refractive index, inside over outside"},
+                    {.name = "g", .min = -.99, .max = .99, .value = 0.0, .doc = "mean cosine of the phase function"},
+                    option::walks(0, "reference_walks", "random walks per point of the reference; 0: none", 0),
+                    option::backend()},
+        .uses_seed = true,
+        .output = "figure: .svg, .png, .pdf or .csv",
+        .run = runPlotAlbedo};
 }
 
 }  // namespace searchlight

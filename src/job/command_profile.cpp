@@ -5,6 +5,7 @@
 #include "base/text.h"
 #include "job/command_table.h"
 #include "job/json.h"
+#include "job/shared_options.h"
 #include "model/plane.h"
 
 namespace searchlight {
@@ -19,8 +20,6 @@ std::string profileCsv(const Subject& subject, const std::string& title, std::st
         csv += fmt::format("{},{},{},{}\n", radii[i], Rd[i].r, Rd[i].g, Rd[i].b);
     return csv;
 }
-
-}  // namespace
 
 JobResult runProfile(const Job& job, Engine& engine, Observer&) {
     const Options options(job);
@@ -77,6 +76,33 @@ JobResult runProfile(const Job& job, Engine& engine, Observer&) {
                                   ? profileCsv(subject, loaded.model.file.title, options.text("per"), radii, Rd)
                                   : result.json + "\n");
     return result;
+}
+
+}  // namespace
+
+Command profileCommand() {
+    return {.name = "profile",
+            .summary = "Evaluate R_d(r) of a model",
+            .example = "searchlight profile --model dipole --material skin1 --radii 0.1,1,10",
+            .options = {option::model(),
+                        option::set(),
+                        {.name = "radii",
+                         .type = ParamType::numbers,
+                         .unit = "mm",
+                         .min = 0,
+                         .max = option::unlimited,
+                         .value = std::vector<double>{},
+                         .doc = "where to evaluate; absent: an adaptive table"},
+                        option::angle(),
+                        {.name = "per",
+                         .type = ParamType::choice,
+                         .value = std::string("transmitted"),
+                         .choices = {"transmitted", "incident"},
+                         .doc = "per unit of which flux"},
+                        option::backend()},
+            .uses_material = true,
+            .output = "profile: .json, or .csv that loads as a measured model",
+            .run = runProfile};
 }
 
 }  // namespace searchlight

@@ -14,6 +14,7 @@
 #include "job/command_table.h"
 #include "job/curves.h"
 #include "job/json.h"
+#include "job/shared_options.h"
 #include "model/plane.h"
 #include "validate/curve_error.h"
 
@@ -207,8 +208,6 @@ std::string errorsCsv(const std::vector<Judged>& judged, const Medium& medium) {
     return csv;
 }
 
-}  // namespace
-
 JobResult runReport(const Job& job, Engine& engine, Observer& observer) {
     const Options options(job);
     const Subject subject = comparableSubjectOf(job, engine);
@@ -283,6 +282,21 @@ JobResult runReport(const Job& job, Engine& engine, Observer& observer) {
     result.text += fmt::format("\nwrote {}\n", (folder / "index.html").string());
     result.json = document.dump(1);
     return result;
+}
+
+}  // namespace
+
+Command reportCommand() {
+    return {.name = "report",
+            .summary = "Write a page: every model beside the reference, on a material",
+            .example = "searchlight report --material marble -o out/",
+            .options = {option::models(), option::walks(4e6),
+                        option::walks(2e5, "albedo_walks", "random walks per point of the albedo figure; 0: none", 0),
+                        option::angle(), option::radiiMax(), option::bins(64), option::backend(), option::threads()},
+            .uses_material = true,
+            .uses_seed = true,
+            .output = "folder of the page, its figures and its numbers",
+            .run = runReport};
 }
 
 }  // namespace searchlight

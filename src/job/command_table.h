@@ -1,22 +1,22 @@
-// The run functions behind the rows of commands.cpp.
+// The rows of commands.cpp, each made in the command's own file.
 #pragma once
 
 #include "job/command.h"
 
 namespace searchlight {
 
-JobResult runModels(const Job& job, Engine& engine, Observer& observer);
-JobResult runMaterials(const Job& job, Engine& engine, Observer& observer);
-JobResult runProfile(const Job& job, Engine& engine, Observer& observer);
-JobResult runInvert(const Job& job, Engine& engine, Observer& observer);
-JobResult runReferenceHalfSpace(const Job& job, Engine& engine, Observer& observer);
-JobResult runReferenceSlab(const Job& job, Engine& engine, Observer& observer);
-JobResult runMcml(const Job& job, Engine& engine, Observer& observer);
-JobResult runPlotPencil(const Job& job, Engine& engine, Observer& observer);
-JobResult runPlotError(const Job& job, Engine& engine, Observer& observer);
-JobResult runPlotAlbedo(const Job& job, Engine& engine, Observer& observer);
-JobResult runCheck(const Job& job, Engine& engine, Observer& observer);
-JobResult runReport(const Job& job, Engine& engine, Observer& observer);
-JobResult runDoctor(const Job& job, Engine& engine, Observer& observer);
+Command modelsCommand();
+Command materialsCommand();
+Command profileCommand();
+Command invertCommand();
+Command referenceHalfSpaceCommand();
+Command referenceSlabCommand();
+Command mcmlCommand();
+Command plotPencilCommand();
+Command plotErrorCommand();
+Command plotAlbedoCommand();
+Command checkCommand();
+Command reportCommand();
+Command doctorCommand();
 
 }  // namespace searchlight

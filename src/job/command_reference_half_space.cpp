@@ -7,6 +7,7 @@
 #include "job/command_table.h"
 #include "job/curves.h"
 #include "job/json.h"
+#include "job/shared_options.h"
 #include "transport/half_space/exact_half_space.h"
 
 namespace searchlight {
@@ -107,8 +108,6 @@ std::string estimateText(const Estimate& estimate, bool exact) {
     return fmt::format("{:.6f} +- {:.6f}", estimate.mean, estimate.standard_error);
 }
 
-}  // namespace
-
 JobResult runReferenceHalfSpace(const Job& job, Engine& engine, Observer& observer) {
     const Options options(job);
     const Subject subject = comparableSubjectOf(job, engine);
@@ -195,6 +194,58 @@ JobResult runReferenceHalfSpace(const Job& job, Engine& engine, Observer& observ
                                    run.seconds());
     if (!job.output.empty()) writeFile(job.output, result.json + "\n");
     return result;
+}
+
+}  // namespace
+
+Command referenceHalfSpaceCommand() {
+    return {
+        .name = "reference halfspace",
+        .summary = "Walk the searchlight problem by unbiased Monte Carlo",
+        .example = "searchlight reference halfspace --material skin1 --walks 1e6 --radii-max 10 --bins 100 --json",
+        .options = {option::walks(1e6),
+                    {.name = "edges",
+                     .type = ParamType::numbers,
+                     .unit = "mm",
+                     .min = 0,
+                     .max = option::unlimited,
+                     .value = std::vector<double>{},
+                     .doc = "edges of the radial bins"},
+                    option::radiiMax(),
+                    option::bins(100),
+                    option::angle(),
+                    {.name = "grid",
+                     .type = ParamType::integer,
+                     .min = 0,
+                     .max = 4096,
+                     .value = 0.0,
+                     .doc = "cells per side of a tally R(x, y); 0: none"},
+                    {.name = "grid_extent",
+                     .unit = "mm",
+                     .min = 0,
+                     .max = option::unlimited,
+                     .value = 0.0,
+                     .doc = "half the side of that square"},
+                    {.name = "estimator",
+                     .type = ParamType::choice,
+                     .value = std::string("analogue"),
+                     .choices = {"analogue", "best"},
+                     .doc = "best: profiles with far less noise, except for g > 0.7 and for --grid; a noisier total"},
+                    {.name = "white",
+                     .type = ParamType::toggle,
+                     .value = false,
+                     .doc = "from a table of walks without absorption, kept on disk: a new sigma_a or sigma_s, up to "
+                            "albedo 0.9999, walks nothing"},
+                    {.name = "exact",
+                     .type = ParamType::toggle,
+                     .value = false,
+                     .doc =
+                         "solve without walks: eta 1, g 0, normal incidence; stderr then bounds the numerical error"},
+                    option::threads()},
+        .uses_material = true,
+        .uses_seed = true,
+        .output = "the JSON document",
+        .run = runReferenceHalfSpace};
 }
 
 }  // namespace searchlight

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "job/command_table.h"
+#include "job/shared_options.h"
 #include "job/slab_json.h"
 #include "transport/mcml/mcml_run.h"
 #include "transport/walk/radial_edges.h"
@@ -61,8 +62,6 @@ SlabSubject slabOf(const Options& options) {
     return subject;
 }
 
-}  // namespace
-
 JobResult runReferenceSlab(const Job& job, Engine&, Observer& observer) {
     const Options options(job);
     SlabSubject subject = slabOf(options);
@@ -100,6 +99,65 @@ JobResult runReferenceSlab(const Job& job, Engine&, Observer& observer) {
                     static_cast<double>(walk.walks), subject.problem.angle_deg, slabText(subject.problem, walked));
     if (!job.output.empty()) writeFile(job.output, result.json + "\n");
     return result;
+}
+
+}  // namespace
+
+Command referenceSlabCommand() {
+    return {.name = "reference slab",
+            .summary = "Walk a pencil beam on plane layers by unbiased Monte Carlo",
+            .example = "searchlight reference slab --layers layers.json --walks 1e6 --json",
+            .options = {{.name = "layers",
+                         .type = ParamType::path,
+                         .value = std::string(),
+                         .doc = "the slab: a searchlight-layers/1 file"},
+                        {.name = "mci",
+                         .type = ParamType::path,
+                         .value = std::string(),
+                         .doc = "or an input file of MCML, with its grid and number of photons"},
+                        {.name = "run",
+                         .type = ParamType::integer,
+                         .min = 1,
+                         .max = 32767,
+                         .value = 1.0,
+                         .doc = "which run of that file"},
+                        option::walks(1e6, "walks", "random walks"),
+                        option::angle(),
+                        {.name = "edges",
+                         .type = ParamType::numbers,
+                         .unit = "mm",
+                         .min = 0,
+                         .max = option::unlimited,
+                         .value = std::vector<double>{},
+                         .doc = "edges of the radial bins"},
+                        option::radiiMax(),
+                        option::bins(100),
+                        {.name = "angles",
+                         .type = ParamType::integer,
+                         .min = 1,
+                         .max = 1e4,
+                         .value = 30.0,
+                         .doc = "equal parts of 90 deg, for what leaves"},
+                        {.name = "depths",
+                         .type = ParamType::integer,
+                         .min = 1,
+                         .max = 1e6,
+                         .value = 100.0,
+                         .doc = "equal parts of the depth, for what is absorbed"},
+                        {.name = "depth",
+                         .unit = "mm",
+                         .min = 0,
+                         .max = option::unlimited,
+                         .value = 0.0,
+                         .doc = "largest depth; 0: chosen from the slab"},
+                        {.name = "maps",
+                         .type = ParamType::toggle,
+                         .value = false,
+                         .doc = "also A(r, z), fluence(r, z), R(r, alpha), T(r, alpha)"},
+                        option::threads()},
+            .uses_seed = true,
+            .output = "the JSON document",
+            .run = runReferenceSlab};
 }
 
 }  // namespace searchlight

@@ -1,0 +1,76 @@
+#include "job/shared_options.h"
+
+namespace searchlight::option {
+
+Param model() {
+    return {.name = "model",
+            .type = ParamType::text,
+            .value = std::string("dipole"),
+            .doc = "a model's id, a .bssrdf file or a measured .csv profile"};
+}
+Param models() {
+    return {.name = "models",
+            .type = ParamType::text,
+            .value = std::string("all"),
+            .doc = "models separated by commas, each with settings if wanted: dipole,better_dipole:Moments=exact"};
+}
+Param set() {
+    return {.name = "set",
+            .type = ParamType::text,
+            .value = std::string(),
+            .doc = "model parameters: name=value, several separated by commas"};
+}
+Param backend() {
+    return {.name = "backend",
+            .type = ParamType::choice,
+            .value = std::string("auto"),
+            .choices = {"auto", "cpu", "gl"},
+            .doc = "auto: native code for shipped models, OpenGL for others"};
+}
+Param angle() {
+    return {.name = "angle_deg", .unit = "deg", .min = 0, .max = 89.9, .value = 0.0, .doc = "of incidence"};
+}
+Param threads() {
+    return {.name = "threads", .type = ParamType::integer, .min = 0, .max = 4096, .value = 0.0, .doc = "0: all"};
+}
+Param walks(double value, std::string name, std::string doc, double min) {
+    return {.name = std::move(name),
+            .type = ParamType::integer,
+            .min = min,
+            .max = 1e15,
+            .value = value,
+            .doc = std::move(doc)};
+}
+Param radiiMax() {
+    return {.name = "radii_max",
+            .unit = "mm",
+            .min = 0,
+            .max = unlimited,
+            .value = 0.0,
+            .doc = "largest radius; 0: chosen from the medium"};
+}
+Param bins(double value) {
+    return {.name = "bins", .type = ParamType::integer, .min = 1, .max = 1e6, .value = value, .doc = "radial bins"};
+}
+Param channel() {
+    return {.name = "channel",
+            .type = ParamType::choice,
+            .value = std::string("R"),
+            .choices = {"R", "G", "B", "luminance"},
+            .doc = "what is plotted"};
+}
+Param scale(std::string name, std::string value) {
+    return {.name = std::move(name),
+            .type = ParamType::choice,
+            .value = std::move(value),
+            .choices = {"lin", "log", "sqrt"},
+            .doc = "scale of the axis"};
+}
+Param solo() {
+    return {.name = "solo",
+            .type = ParamType::text,
+            .value = std::string(),
+            .doc = "show this model alone, its channels apart"};
+}
+
+}  // namespace searchlight::option

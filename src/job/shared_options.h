@@ -1,0 +1,36 @@
+// Options that several commands have, so that one name means one thing.
+#pragma once
+
+#include "base/param.h"
+
+namespace searchlight::option {
+
+inline constexpr double unlimited = 1e300;
+
+/// One model, or several; settings of the one.
+Param model();
+Param models();
+Param set();
+
+/// What evaluates a model.
+Param backend();
+
+/// Angle of incidence, degrees.
+Param angle();
+
+/// Threads of parallel work; 0: all.
+Param threads();
+
+/// How many random walks; `value` is the default.
+Param walks(double value, std::string name = "walks", std::string doc = "random walks per channel", double min = 1);
+
+/// Radial bins, and the radius that they end at.
+Param radiiMax();
+Param bins(double value);
+
+/// Of a plot: channel, scale of an axis, the one model to show.
+Param channel();
+Param scale(std::string name, std::string value);
+Param solo();
+
+}  // namespace searchlight::option
