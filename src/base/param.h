@@ -36,6 +36,7 @@ struct Param {
     std::string doc;         ///< one line
     bool required = false;   ///< no default: the value above is not used
     bool exclusive = false;  ///< min itself is not allowed
+    char letter = 0;         ///< of a short flag: 'n' for -n; 0: none
 };
 
 /// Values by parameter name; what is absent has its default.

@@ -20,7 +20,7 @@ namespace searchlight {
 struct Camera {
     double azimuth_deg = 30;        ///< about +y, from +z towards +x
     double elevation_deg = 15;      ///< above the horizon
-    double distance = 2.5;          ///< from the target
+    double distance = 0;            ///< from the target; 0: the object fills 70 % of the picture's height
     double field_of_view_deg = 35;  ///< vertical
     Vec3 target;
 };
@@ -33,10 +33,11 @@ struct DirectionalLight {
 };
 
 struct EnvironmentLight {
-    std::string path;         ///< latitude-longitude picture
-    Rgb intensity{1, 1, 1};   ///< times the picture's radiance
-    double rotation_deg = 0;  ///< about +y
-    bool occlusion = false;   ///< the object shadows itself
+    std::string path;                ///< a picture of all directions; docs/light.md says which way is where
+    Rgb intensity{1, 1, 1};          ///< times the picture's radiance
+    double rotation_deg = 0;         ///< about +y, from +z towards +x
+    bool occlusion = false;          ///< the object shadows itself
+    std::string layout = "latlong";  ///< or "mirror_ball", "angular"
 };
 
 struct PointLight {
@@ -69,7 +70,7 @@ struct SceneModel {
 
 /// A plane below the object.
 struct Ground {
-    double height = -0.5;
+    double height = 0;  ///< above the object's lowest point, which 0 touches
     Rgb albedo{0.5, 0.5, 0.5};
 };
 

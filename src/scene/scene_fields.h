@@ -37,6 +37,14 @@ Field<T> field(const char* name, Value T::*member, ParamType type, const char* u
     return {std::move(param), member};
 }
 
+// A text that is one of `choices`.
+template <class T>
+Field<T> choiceField(const char* name, std::string T::*member, std::vector<std::string> choices, const char* doc) {
+    Field<T> chosen = field(name, member, ParamType::choice, "", 0, 0, doc);
+    chosen.param.choices = std::move(choices);
+    return chosen;
+}
+
 inline const std::vector<Field<Scene>> scene_fields{
     field("object", &Scene::object, ParamType::path, "", 0, 0, "a built-in object, or a mesh or point cloud file"),
     field("scale", &Scene::scale, ParamType::number, "mm", 1e-6, 1e6, "length of the object's longest side"),
@@ -45,7 +53,8 @@ inline const std::vector<Field<Scene>> scene_fields{
 inline const std::vector<Field<Camera>> camera_fields{
     field("azimuth_deg", &Camera::azimuth_deg, ParamType::number, "deg", -360, 360, "about +y, from +z towards +x"),
     field("elevation_deg", &Camera::elevation_deg, ParamType::number, "deg", -90, 90, "above the horizon"),
-    field("distance", &Camera::distance, ParamType::number, "", 1e-3, 1e3, "from the target, in longest sides"),
+    field("distance", &Camera::distance, ParamType::number, "", 0, 1e3,
+          "from the target, in longest sides; 0: the object fills 70 % of the picture's height"),
     field("field_of_view_deg", &Camera::field_of_view_deg, ParamType::number, "deg", 1, 170, "vertical"),
     field("target", &Camera::target, ParamType::numbers, "", 0, 0,
           "x, y, z looked at, in longest sides from the centre of the bounding box"),
@@ -80,11 +89,14 @@ inline const std::vector<Field<DirectionalLight>> directional_fields{
 };
 
 inline const std::vector<Field<EnvironmentLight>> environment_fields{
-    field("path", &EnvironmentLight::path, ParamType::path, "", 0, 0, "latitude-longitude picture"),
+    field("path", &EnvironmentLight::path, ParamType::path, "", 0, 0, "a picture of all directions"),
     field("intensity", &EnvironmentLight::intensity, ParamType::color, "", 0, unlimited,
           "times the picture's radiance"),
-    field("rotation_deg", &EnvironmentLight::rotation_deg, ParamType::number, "deg", -360, 360, "about +y"),
+    field("rotation_deg", &EnvironmentLight::rotation_deg, ParamType::number, "deg", -360, 360,
+          "about +y, from +z towards +x"),
     field("occlusion", &EnvironmentLight::occlusion, ParamType::toggle, "", 0, 0, "the object shadows itself"),
+    choiceField("layout", &EnvironmentLight::layout, {"latlong", "mirror_ball", "angular"},
+                "how the picture shows all directions"),
 };
 
 inline const std::vector<Field<PointLight>> point_fields{
@@ -95,7 +107,8 @@ inline const std::vector<Field<PointLight>> point_fields{
 };
 
 inline const std::vector<Field<Ground>> ground_fields{
-    field("height", &Ground::height, ParamType::number, "", -1e3, 1e3, "y of the plane, in longest sides"),
+    field("height", &Ground::height, ParamType::number, "", -1e3, 1e3,
+          "of the plane above the object's lowest point, in longest sides"),
     field("albedo", &Ground::albedo, ParamType::color, "", 0, 1, "of a diffuse surface"),
 };
 

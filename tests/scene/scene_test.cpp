@@ -24,7 +24,7 @@ Scene richScene() {
         "my.bssrdf",
         {{"fit", std::string("exact")}, {"Depth", 2.5}, {"Clamp", true}, {"w", std::vector<double>{1, 0, 0.1}}}};
     scene.lights = {DirectionalLight{{0, 1, 0}, {1, 0.5, 0.1}, 0.53, "glass.png"},
-                    EnvironmentLight{"venice.hdr", {2, 2, 2}, 90, true}, PointLight{{0, 2, 0}, {3, 2, 1}}};
+                    EnvironmentLight{"venice.hdr", {2, 2, 2}, 90, true, "angular"}, PointLight{{0, 2, 0}, {3, 2, 1}}};
     scene.ground = Ground{-0.25, {0.2, 0.3, 0.4}};
     scene.backdrop = Rgb{0.1, 0.1, 0.2};
     scene.coat = Coat{0.15, "clear.brdf"};

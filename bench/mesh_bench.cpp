@@ -1,0 +1,113 @@
+// Speed of the walk inside a closed mesh on one core: collisions per CPU second with a ray for each flight, and with
+// safe regions, beside Embree's rate on the rays of the former. The mesh is the first argument's PLY or OBJ file,
+// 50 mm long, or the built-in statue without one:
+//   build/release/bin/mesh_bench MESH
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <ctime>
+#include <memory>
+#include <string>
+
+#include "geometry/object.h"
+#include "transport/mesh/reference_body.h"
+#include "transport/walk/random.h"
+
+namespace searchlight {
+namespace {
+
+std::string mesh_path = "statue";
+
+const Mesh& mesh() {
+    static const Object object = [] {
+        Scene scene;
+        scene.object = mesh_path;
+        scene.scale = 50;
+        return placeObject(scene);
+    }();
+    return object.mesh;
+}
+
+double cpuSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+const MeshBody& body(bool regions, double mfp) {
+    static std::unique_ptr<MeshBody> kept;
+    static bool kept_regions = false;
+    static double kept_mfp = 0;
+    if (!kept || kept_regions != regions || kept_mfp != mfp)
+        kept = std::make_unique<MeshBody>(
+            mesh(), MeshBodyOptions{.cell_area_mm2 = 1, .shortest_mfp = mfp, .regions = regions, .threads = 1});
+    kept_regions = regions, kept_mfp = mfp;
+    return *kept;
+}
+
+void walk(benchmark::State& state, const Medium& medium, double shortest_mfp, bool regions, double walks) {
+    const MeshBody& in = body(regions, shortest_mfp);
+    BodyOptions options{.walks = static_cast<std::uint64_t>(walks), .threads = 1};
+    Observer observer;
+    double collisions = 0, flights = 0, rays = 0, entries = 0;
+    const double begin = cpuSeconds();
+    for (auto _ : state) {
+        ++options.seed;
+        const BodyResult result = walkBody(in, medium, 0, UniformLight{}, options, observer);
+        collisions += static_cast<double>(result.collisions);
+        flights += static_cast<double>(result.flights);
+        rays += static_cast<double>(result.rays);
+        entries += static_cast<double>(result.entries);
+    }
+    const double seconds = cpuSeconds() - begin;
+    state.counters["collisions/s"] = collisions / seconds;
+    state.counters["walks/s"] = entries / seconds;
+    state.counters["rays/s"] = rays / seconds;
+    state.counters["rays/flight"] = rays / flights;
+    state.counters["build_s"] = in.build_seconds();
+}
+
+// Flights as walks make them: from points inside, in all directions, of exponential length. `batch`: in packets, else
+// one at a time.
+void shortRays(benchmark::State& state, double mfp, bool batch) {
+    const MeshBody& in = body(true, mfp);
+    SplitMix64 random(1);
+    std::vector<Ray> rays;
+    while (rays.size() < 1 << 16) {
+        const SurfacePoint point = in.pointAt(random.uniform(), random.uniform(), random.uniform());
+        const Vec3 start = point.position - (2 * random.uniform() * mfp) * point.normal;
+        const double w = 2 * random.uniform() - 1, ring = std::sqrt(1 - w * w), turn = 6.283185307 * random.uniform();
+        rays.push_back({toFloat(start), toFloat(Vec3{ring * std::cos(turn), ring * std::sin(turn), w}), 0,
+                        static_cast<float>(-mfp * std::log(random.uniform()))});
+    }
+    std::vector<RayHit> hits(rays.size());
+    double traced = 0;
+    const double begin = cpuSeconds();
+    for (auto _ : state) {
+        if (batch)
+            in.rays().intersect(rays, hits, false);
+        else
+            for (const Ray& ray : rays) benchmark::DoNotOptimize(in.rays().intersect(ray));
+        traced += static_cast<double>(rays.size());
+    }
+    state.counters["rays/s"] = traced / (cpuSeconds() - begin);
+}
+
+// Marble of [Jensen2001], red and blue: mean free paths of 0.46 and 0.33 mm.
+const Medium marble_red = makeMedium({0.0021}, {2.19}, {0}, 1.5);
+const Medium marble_blue = makeMedium({0.0071}, {3.00}, {0}, 1.5);
+const Medium skin1_red = makeMedium({0.032}, {0.74}, {0}, 1.3);
+const Medium forward = makeMedium({0.0021}, {21.9}, {0.9}, 1.5);
+
+BENCHMARK_CAPTURE(shortRays, one_at_a_time, 0.33, false)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(shortRays, packets, 0.33, true)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(walk, marble_red_ray_each, marble_red, 0.33, false, 2e4)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(walk, marble_red_regions, marble_red, 0.33, true, 2e5)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(walk, marble_blue_regions, marble_blue, 0.33, true, 2e5)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(walk, skin1_red_regions, skin1_red, 0.41, true, 2e5)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(walk, forward_g_09_regions, forward, 0.046, true, 1e5)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace searchlight
+
+int main(int argc, char** argv) {
+    benchmark::Initialize(&argc, argv);
+    if (argc > 1) searchlight::mesh_path = argv[1];
+    benchmark::RunSpecifiedBenchmarks();
+}

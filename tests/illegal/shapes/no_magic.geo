@@ -1,0 +1,1 @@
+NPoints 2

@@ -1,0 +1,1 @@
+PGEOMETRY V2
