@@ -12,6 +12,7 @@
 
 #include "arguments.h"
 #include "base/error.h"
+#include "base/ranks.h"
 #include "job/engine.h"
 #include "job/job.h"
 #include "progress.h"
@@ -83,7 +84,8 @@ int runArguments(int argc, char** argv) {
     const auto runOnce = [&] {
         const JobResult result = run(*arguments.job, engine, observer);
         observer.finish();
-        print(arguments.json ? result.json + "\n" : result.text);
+        if (rank() == 0) print(arguments.json ? result.json + "\n" : result.text);
+        if (result.interrupted) return exitCode(ErrorKind::interrupted);
         return result.passed ? 0 : 1;
     };
     return arguments.watch ? watch(*arguments.job, runOnce) : runOnce();
@@ -95,13 +97,17 @@ int main(int argc, char** argv) {
     std::signal(SIGINT, interrupt);
     std::signal(SIGTERM, interrupt);
     std::signal(SIGPIPE, SIG_IGN);
+    Ranks ranks(argc, argv);
+    const auto fail = [&](int code, std::string_view message) {
+        fmt::print(stderr, "searchlight: {}\n", message);
+        if (rankCount() > 1) ranks.abort(code);
+        return code;
+    };
     try {
         return runArguments(argc, argv);
     } catch (const Error& error) {
-        fmt::print(stderr, "searchlight: {}\n", error.what());
-        return exitCode(error.kind);
+        return fail(exitCode(error.kind), error.what());
     } catch (const std::bad_alloc&) {
-        fmt::print(stderr, "searchlight: out of memory\n");
-        return exitCode(ErrorKind::input);
+        return fail(exitCode(ErrorKind::input), "out of memory");
     }
 }

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "base/ranks.h"
+
 namespace searchlight {
 
 namespace {
@@ -26,12 +28,14 @@ std::string rate(double per_second) {
 }  // namespace
 
 TerminalObserver::TerminalObserver(const std::atomic<bool>& interrupted)
-    : interrupted_(interrupted), terminal_(isatty(STDERR_FILENO) != 0) {}
+    : interrupted_(interrupted), terminal_(rank() == 0 && isatty(STDERR_FILENO) != 0) {}
 
 TerminalObserver::~TerminalObserver() { finish(); }
 
 void TerminalObserver::progress(std::string_view task, std::uint64_t done, std::uint64_t total, std::string_view unit) {
-    if (!terminal_ || total == 0) return;
+    // mpirun's processes write into its pipe: there a line now and then, from one of them, says how far all are.
+    const bool line = !terminal_ && rank() == 0 && rankCount() > 1;
+    if ((!terminal_ && !line) || total == 0) return;
     const std::lock_guard lock(mutex_);
     const Clock::time_point now = Clock::now();
     if (task != task_ || done < start_done_) {
@@ -41,11 +45,16 @@ void TerminalObserver::progress(std::string_view task, std::uint64_t done, std::
         return;
     }
     using namespace std::chrono_literals;
-    if (now - shown_ < 100ms) return;
+    if (now - shown_ < (line ? 10s : 100ms)) return;
     shown_ = now;
     const double elapsed = std::chrono::duration<double>(now - start_).count();
     const double speed = static_cast<double>(done - start_done_) / elapsed;
     const double left = static_cast<double>(total - std::min(done, total)) / std::max(speed, 1e-9);
+    if (line) {
+        fmt::print(stderr, "{} {:.0f} %, {}{}/s, {} left\n", task,
+                   100.0 * static_cast<double>(done) / static_cast<double>(total), rate(speed), unit, duration(left));
+        return;
+    }
     const double fraction = std::min(1.0, static_cast<double>(done) / static_cast<double>(total));
     constexpr int width = 28;
     const int filled = static_cast<int>(fraction * width);

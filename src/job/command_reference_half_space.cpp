@@ -1,12 +1,15 @@
 // reference halfspace: the searchlight problem by Monte Carlo, or exactly.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "base/error.h"
 #include "base/files.h"
 #include "base/text.h"
 #include "job/command_table.h"
 #include "job/curves.h"
 #include "job/json.h"
+#include "job/saved_walks.h"
 #include "job/shared_options.h"
 #include "transport/half_space/exact_half_space.h"
 
@@ -103,6 +106,21 @@ void refuseExact(const Options& options, const Subject& subject) {
     }
 }
 
+// What the sums depend on, but for the number of walks.
+Json problemJson(const Medium& medium, const ReferenceOptions& reference) {
+    const auto rgb = [](const Rgb& value) { return Json{value.r, value.g, value.b}; };
+    return {{"sigma_a", rgb(medium.sigma_a)},
+            {"sigma_s", rgb(medium.sigma_s)},
+            {"g", rgb(medium.g)},
+            {"eta", medium.eta},
+            {"channels", medium.channels},
+            {"angle_deg", reference.angle_deg},
+            {"edges_mm", reference.edges_mm},
+            {"grid", reference.grid},
+            {"grid_extent_mm", reference.grid_extent_mm},
+            {"estimator", reference.estimator == Estimator::best ? "best" : "analogue"}};
+}
+
 std::string estimateText(const Estimate& estimate, bool exact) {
     if (exact) return fmt::format("{:.11f} +- {:.0e}", estimate.mean, estimate.standard_error);
     return fmt::format("{:.6f} +- {:.6f}", estimate.mean, estimate.standard_error);
@@ -126,7 +144,17 @@ JobResult runReferenceHalfSpace(const Job& job, Engine& engine, Observer& observ
     if (reference.white) refuseWhite(options);
     reference.exact = options.toggle("exact");
     if (reference.exact) refuseExact(options, subject);
+    if (reference.edges_mm.empty()) reference.edges_mm = plotEdges(subject.medium, 0, 100);
+    SavedWalks saved(options, job, problemJson(subject.medium, reference), Rgb::channels);
+    if (reference.white || reference.exact)
+        for (const char* name : {"resume", "until_error"})
+            if (options.given(name))
+                throw usageError(fmt::format("--{} is for walks", name), "without --white, --exact");
+    reference.control = [&](int channel) { return saved.control(static_cast<std::size_t>(channel)); };
     const ReferenceRun run = runReference(subject.medium, reference, observer);
+    saved.save();
+    if (run.interrupted && !std::ranges::any_of(run.channels, [](const auto& c) { return c.has_value(); }))
+        throw interruptedError();
 
     const HalfSpaceResult* any = nullptr;
     Json specular = Json::array();
@@ -154,6 +182,7 @@ JobResult runReferenceHalfSpace(const Job& job, Engine& engine, Observer& observ
     document["single"] = tallyJson(run, &HalfSpaceResult::single, reference.grid, reference.grid_extent_mm);
     document["multiple"] = tallyJson(run, &HalfSpaceResult::multiple, reference.grid, reference.grid_extent_mm);
     document["walks"] = any->walks;
+    if (run.interrupted) document["interrupted"] = true;
     document["collisions"] = collisions;
     document["seconds"] = run.seconds();
     document["threads"] = any->threads;
@@ -192,6 +221,8 @@ JobResult runReferenceHalfSpace(const Job& job, Engine& engine, Observer& observ
         result.text += fmt::format("{:.3g} walks/s on {} threads ({}), {:.3g} s; the profile is in --json\n",
                                    static_cast<double>(run.walks()) / run.seconds(), any->threads, any->instruction_set,
                                    run.seconds());
+    result.interrupted = run.interrupted;
+    if (run.interrupted) result.text += "interrupted; channels that are missing were not reached\n";
     if (!job.output.empty()) writeFile(job.output, result.json + "\n");
     return result;
 }
@@ -241,9 +272,12 @@ Command referenceHalfSpaceCommand() {
                      .value = false,
                      .doc =
                          "solve without walks: eta 1, g 0, normal incidence; stderr then bounds the numerical error"},
-                    option::threads()},
+                    option::threads(),
+                    option::untilError("total and profile"),
+                    option::resume()},
         .uses_material = true,
         .uses_seed = true,
+        .shares_walks = true,
         .output = "the JSON document",
         .run = runReferenceHalfSpace};
 }

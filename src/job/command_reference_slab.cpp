@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "job/command_table.h"
+#include "job/saved_walks.h"
 #include "job/shared_options.h"
 #include "job/slab_json.h"
 #include "transport/mcml/mcml_run.h"
@@ -62,6 +63,20 @@ SlabSubject slabOf(const Options& options) {
     return subject;
 }
 
+// What the sums depend on, but for the number of walks.
+Json problemJson(const SlabProblem& problem, const SlabOptions& options) {
+    Json json{{"n_above", problem.n_above},   {"n_below", problem.n_below}, {"angle_deg", problem.angle_deg},
+              {"edges_mm", options.edges_mm}, {"angles", options.angles},   {"depths", options.depths},
+              {"depth_mm", options.depth_mm}, {"maps", options.maps},       {"layers", Json::array()}};
+    for (const SlabLayer& layer : problem.layers)
+        json["layers"].push_back({{"n", layer.n},
+                                  {"sigma_a", layer.sigma_a},
+                                  {"sigma_s", layer.sigma_s},
+                                  {"g", layer.g},
+                                  {"thickness_mm", layer.thickness_mm}});
+    return json;
+}
+
 JobResult runReferenceSlab(const Job& job, Engine&, Observer& observer) {
     const Options options(job);
     SlabSubject subject = slabOf(options);
@@ -85,7 +100,11 @@ JobResult runReferenceSlab(const Job& job, Engine&, Observer& observer) {
     walk.maps = options.toggle("maps");
     walk.seed = job.seed;
     walk.threads = static_cast<int>(options.number("threads"));
+    SavedWalks saved(options, job, problemJson(subject.problem, walk), 1);
+    walk.control = saved.control(0);
     const SlabResult walked = walkSlab(subject.problem, walk, observer);
+    saved.save();
+    if (walked.interrupted && walked.walks == 0) throw interruptedError();
 
     Json document = documentJson("searchlight-slab/1", job);
     document["per"] = "incident";
@@ -96,7 +115,9 @@ JobResult runReferenceSlab(const Job& job, Engine&, Observer& observer) {
     result.json = document.dump(1);
     result.text =
         fmt::format("{}, {:.3g} walks, {} deg, per unit incident flux\n{}", subject.name,
-                    static_cast<double>(walk.walks), subject.problem.angle_deg, slabText(subject.problem, walked));
+                    static_cast<double>(walked.walks), subject.problem.angle_deg, slabText(subject.problem, walked));
+    result.interrupted = walked.interrupted;
+    if (walked.interrupted) result.text += "interrupted\n";
     if (!job.output.empty()) writeFile(job.output, result.json + "\n");
     return result;
 }
@@ -154,8 +175,11 @@ Command referenceSlabCommand() {
                          .type = ParamType::toggle,
                          .value = false,
                          .doc = "also A(r, z), fluence(r, z), R(r, alpha), T(r, alpha)"},
-                        option::threads()},
+                        option::threads(),
+                        option::untilError("R, T and A"),
+                        option::resume()},
             .uses_seed = true,
+            .shares_walks = true,
             .output = "the JSON document",
             .run = runReferenceSlab};
 }

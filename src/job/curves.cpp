@@ -94,7 +94,11 @@ ReferenceRun runReference(const Medium& medium, const ReferenceOptions& options,
         walk.grid_extent_mm = options.grid_extent_mm;
         walk.threads = options.threads;
         walk.estimator = options.estimator;
-        run.channels[static_cast<std::size_t>(c)] = walkHalfSpace(problem, walk, observer);
+        if (options.control) walk.control = options.control(c);
+        HalfSpaceResult walked = walkHalfSpace(problem, walk, observer);
+        run.interrupted = walked.interrupted;
+        if (walked.walks > 0 || !walked.interrupted) run.channels[static_cast<std::size_t>(c)] = std::move(walked);
+        if (run.interrupted) break;
     }
     return run;
 }

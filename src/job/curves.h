@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,6 +23,8 @@ struct ReferenceRun {
     std::array<std::optional<HalfSpaceResult>, Rgb::channels> channels;
     std::array<std::optional<CachedWhiteTable>, Rgb::channels> white;  ///< where the channels came from tables
 
+    bool interrupted = false;  ///< walks are missing; channels that were not reached are absent
+
     std::uint64_t walks() const;
     double seconds() const;
     /// Per unit incident flux; channels that do not scatter are NaN.
@@ -39,7 +42,8 @@ struct ReferenceOptions {
     Estimator estimator = Estimator::analogue;
     bool white = false;  ///< from tables of walks without absorption, in the user's cache; no grid, no estimator
     bool exact = false;  ///< solved without walks, where whyNotExact() is empty
-    bool only[Rgb::channels] = {true, true, true};  ///< channels to walk
+    bool only[Rgb::channels] = {true, true, true};    ///< channels to walk
+    std::function<WalkControl(int channel)> control;  ///< of the walks; may be empty
 };
 
 ReferenceRun runReference(const Medium& medium, const ReferenceOptions& options, Observer& observer);

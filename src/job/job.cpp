@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "base/ranks.h"
 #include "base/text.h"
 #include "job/command.h"
 #include "job/json.h"
@@ -102,6 +103,7 @@ std::string jobJson(const Job& job) {
     json["format"] = fmt::format("{}{}", format_name, format_version);
     json["command"] = job.command;
     const Command& command = findCommand(job.command);
+    if (command.uses_scene) json["scene"] = Json::parse(sceneJson(job.scene));
     if (command.uses_material) {
         // What the command does not read stays out: the file says what matters.
         const Json scene = Json::parse(sceneJson(job.scene));
@@ -123,11 +125,18 @@ JobResult run(const Job& job, Observer& observer) {
 }
 
 JobResult run(const Job& job, Engine& engine, Observer& observer) {
-    return findCommand(job.command).run(job, engine, observer);
+    const Command& command = findCommand(job.command);
+    if (rank() == 0 || command.writes_in_parts) return command.run(job, engine, observer);
+    if (!command.shares_walks) return {};
+    Job share = job;  // the process with rank 0 writes
+    share.output.clear();
+    return command.run(share, engine, observer);
 }
 
 std::vector<std::string> modelFiles(const Job& job) {
     std::vector<std::string> files;
+    if (findCommand(job.command).uses_scene && std::filesystem::is_regular_file(job.scene.model.id))
+        files.push_back(job.scene.model.id);
     for (const char* option : {"model", "models", "solo"}) {
         const auto given = job.options.find(option);
         if (given == job.options.end()) continue;

@@ -29,9 +29,10 @@ Job parseJob(std::string_view text, std::string_view path);
 std::string jobJson(const Job& job);
 
 struct JobResult {
-    std::string text;    ///< for people
-    std::string json;    ///< for machines; one document
-    bool passed = true;  ///< false: a check failed (exit code 1)
+    std::string text;          ///< for people
+    std::string json;          ///< for machines; one document
+    bool passed = true;        ///< false: a check failed (exit code 1)
+    bool interrupted = false;  ///< stopped early, with what there was until then
 };
 
 class Engine;

@@ -41,6 +41,19 @@ Param walks(double value, std::string name, std::string doc, double min) {
             .value = value,
             .doc = std::move(doc)};
 }
+Param untilError(std::string_view of_what) {
+    return {.name = "until_error",
+            .type = ParamType::text,
+            .value = std::string(),
+            .doc = "stop, before all walks, when " + std::string(of_what) +
+                   " have this relative standard error, such as 0.5%"};
+}
+Param resume() {
+    return {.name = "resume",
+            .type = ParamType::path,
+            .value = std::string(),
+            .doc = "go on from the walks in this file, if it exists, and keep them there, also after Ctrl+C"};
+}
 Param radiiMax() {
     return {.name = "radii_max",
             .unit = "mm",

@@ -1,6 +1,9 @@
 // Options that several commands have, so that one name means one thing.
 #pragma once
 
+#include <string>
+#include <string_view>
+
 #include "base/param.h"
 
 namespace searchlight::option {
@@ -23,6 +26,10 @@ Param threads();
 
 /// How many random walks; `value` is the default.
 Param walks(double value, std::string name = "walks", std::string doc = "random walks per channel", double min = 1);
+
+/// When random walks may stop early, and the file that they are kept in (job/saved_walks.h).
+Param untilError(std::string_view of_what);
+Param resume();
 
 /// Radial bins, and the radius that they end at.
 Param radiiMax();

@@ -27,10 +27,10 @@ protected:
     }
     void TearDown() override { std::filesystem::remove_all(folder_); }
 
-    /// `arguments` as a shell reads them; the working directory is folder().
-    Output run(const std::string& arguments) const {
-        const std::string command =
-            "cd '" + folder_.string() + "' && '" SEARCHLIGHT_PROGRAM "' " + arguments + " >.out 2>.err </dev/null";
+    /// `arguments` as a shell reads them; the working directory is folder(). `launcher` stands before the program.
+    Output run(const std::string& arguments, const std::string& launcher = {}) const {
+        const std::string command = "cd '" + folder_.string() + "' && " + launcher + " '" SEARCHLIGHT_PROGRAM "' " +
+                                    arguments + " >.out 2>.err </dev/null";
         const int status = std::system(command.c_str());
         Output output;
         output.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;

@@ -265,10 +265,10 @@ struct Recorder : Observer {
 
 TEST(HalfSpace, ProgressReachesAllWalks) {
     Recorder recorder;
-    HalfSpaceOptions o = options(100'000);
+    HalfSpaceOptions o = options(128'000);
     o.threads = 1;
     walkHalfSpace(problems[0], o, recorder);
-    EXPECT_EQ(recorder.most, 100'000u);
+    EXPECT_EQ(recorder.most, 128'000u);
     EXPECT_EQ(recorder.calls, 64);
 }
 

@@ -1,8 +1,6 @@
 #include "transport/half_space/half_space.h"
 
 #include <algorithm>
-#include <atomic>
-#include <chrono>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -13,13 +11,12 @@
 #include "transport/half_space/half_space_best.h"
 #include "transport/half_space/half_space_walk.h"
 #include "transport/walk/beam.h"
+#include "transport/walk/chunks.h"
 
 namespace searchlight {
 
 namespace {
 
-constexpr std::uint64_t kFewestChunks = 64;
-constexpr std::uint64_t kLargestChunk = 65'536;
 constexpr int kFinestGrid = 4096;
 // Beyond, expected escapes are few and heavy, and the analogue walk is the better one (docs/benchmarks.md).
 constexpr double kMostForward = 0.7;
@@ -52,17 +49,15 @@ void check(const HalfSpaceOptions& options) {
         reject("the extent of the grid", options.grid_extent_mm, "above 0, up to 1e9 mm");
 }
 
-// Sums over chunks of one order of scattering.
-struct OrderSums {
-    BatchRatios flux;        // weight per slot, over walks
-    BatchRatios moments{2};  // weight times x and r^2, over the weight that left
+// What is summed over chunks, for every order of scattering: weight per slot, over walks; and weight times x and r^2,
+// over the weight that left.
+enum Sum { all_flux, single_flux, multiple_flux, all_moments, single_moments, multiple_moments, sum_count };
 
-    void add(const ExitTally::Sums& chunk, double walks) {
-        flux.add(chunk.flux, walks);
-        const double moment[] = {chunk.x, chunk.r2};
-        moments.add(moment, chunk.flux[0]);
-    }
-};
+std::vector<BatchRatios> emptySums(const TallyLayout& layout) {
+    std::vector<BatchRatios> sums(all_moments, BatchRatios(layout.slots()));
+    sums.resize(sum_count, BatchRatios(2));
+    return sums;
+}
 
 ExitTally::Sums operator+(const ExitTally::Sums& a, const ExitTally::Sums& b) {
     ExitTally::Sums sum{a.flux, a.x + b.x, a.r2 + b.r2};
@@ -70,36 +65,43 @@ ExitTally::Sums operator+(const ExitTally::Sums& a, const ExitTally::Sums& b) {
     return sum;
 }
 
+void addChunk(const ExitTally& chunk, std::uint64_t walks, std::vector<BatchRatios>& sums) {
+    const ExitTally::Sums &one = chunk.sums(ExitTally::single), &more = chunk.sums(ExitTally::multiple);
+    const ExitTally::Sums both = one + more;
+    for (int order = 0; order < 3; ++order) {
+        const ExitTally::Sums& add = order == 0 ? both : order == 1 ? one : more;
+        sums[all_flux + order].add(add.flux, static_cast<double>(walks));
+        const double moment[] = {add.x, add.r2};
+        sums[all_moments + order].add(moment, add.flux[0]);
+    }
+}
+
+// From sums to the numbers of the result.
 class Reduction {
 public:
     Reduction(const HalfSpaceProblem& problem, const HalfSpaceOptions& options, const TallyLayout& layout,
-              double transmitted, std::optional<double> reach)
+              double transmitted)
         : options_(options),
-          reach_(reach),
           layout_(layout),
           transmitted_(transmitted),
           mfp_(1 / (problem.sigma_a + problem.sigma_s)) {}
 
-    void add(const ExitTally& chunk, std::uint64_t walks) {
-        const ExitTally::Sums &one = chunk.sums(ExitTally::single), &more = chunk.sums(ExitTally::multiple);
-        const double n = static_cast<double>(walks);
-        single_.add(one, n);
-        multiple_.add(more, n);
-        all_.add(one + more, n);
-    }
-
-    void finish(HalfSpaceResult& result) const {
-        result.all = tallyOf(all_);
-        result.single = tallyOf(single_);
-        result.multiple = tallyOf(multiple_);
+    /// `reach`: BestPlan::reach; errors beyond are at least those of whole exits.
+    void finish(const std::vector<BatchRatios>& sums, std::uint64_t walks, std::optional<double> reach,
+                HalfSpaceResult& result) {
+        walks_ = walks;
+        reach_ = reach;
+        result.all = tallyOf(sums[all_flux], sums[all_moments]);
+        result.single = tallyOf(sums[single_flux], sums[single_moments]);
+        result.multiple = tallyOf(sums[multiple_flux], sums[multiple_moments]);
     }
 
 private:
     // Per unit incident flux. The scatter of batches without an exit would be 0; one exit is the least that can be
     // said, unless exits have been foreseen with weights far below 1.
-    Estimate flux(const OrderSums& sums, std::size_t slot, double radius_mfp = 0) const {
-        const double walks = static_cast<double>(options_.walks);
-        Estimate e = sums.flux.estimate(slot, options_.walks);
+    Estimate flux(const BatchRatios& sums, std::size_t slot, double radius_mfp = 0) const {
+        const double walks = static_cast<double>(walks_);
+        Estimate e = sums.estimate(slot, walks_);
         double least = 1 / walks;
         if (reach_)
             least = radius_mfp >= *reach_ ? std::sqrt(std::max(e.mean, least) / walks) : e.mean == 0 ? least : 0;
@@ -107,12 +109,12 @@ private:
         return {transmitted_ * e.mean, transmitted_ * e.standard_error, e.count};
     }
 
-    Estimate moment(const OrderSums& sums, std::size_t index, double unit) const {
-        const Estimate e = sums.moments.estimate(index, options_.walks);
+    Estimate moment(const BatchRatios& sums, std::size_t index, double unit) const {
+        const Estimate e = sums.estimate(index, walks_);
         return {e.mean * unit, e.standard_error * unit, e.count};
     }
 
-    HalfSpaceTally tallyOf(const OrderSums& sums) const {
+    HalfSpaceTally tallyOf(const BatchRatios& sums, const BatchRatios& moments) const {
         HalfSpaceTally tally;
         tally.total = flux(sums, 0);
         const std::size_t first = 1, last = layout_.bins.slots();
@@ -124,8 +126,8 @@ private:
             tally.Rd.push_back(bin.mean / area);
             tally.standard_error.push_back(bin.standard_error / area);
         }
-        tally.mean_x_mm = moment(sums, 0, mfp_);
-        tally.mean_r2_mm2 = moment(sums, 1, mfp_ * mfp_);
+        tally.mean_x_mm = moment(moments, 0, mfp_);
+        tally.mean_r2_mm2 = moment(moments, 1, mfp_ * mfp_);
         const double side = options_.grid > 0 ? 2 * options_.grid_extent_mm / options_.grid : 0;
         for (std::size_t slot = layout_.gridSlot(); slot < layout_.slots(); ++slot) {
             const Estimate cell = flux(sums, slot);
@@ -136,14 +138,29 @@ private:
     }
 
     const HalfSpaceOptions& options_;
-    std::optional<double> reach_;  ///< BestPlan::reach; errors beyond are at least those of whole exits
     const TallyLayout& layout_;
     double transmitted_;
     double mfp_;
-    OrderSums all_{BatchRatios(layout_.slots())};
-    OrderSums single_{BatchRatios(layout_.slots())};
-    OrderSums multiple_{BatchRatios(layout_.slots())};
+    std::uint64_t walks_ = 0;
+    std::optional<double> reach_;
 };
+
+// Whether the total, and the profile by its flux-weighted mean error, are known well enough.
+EnoughFunction enoughFor(double error, const TallyLayout& layout) {
+    if (error <= 0) return {};
+    return [error, first = std::size_t{1}, last = layout.bins.slots()](const std::vector<BatchRatios>& sums,
+                                                                       std::uint64_t walks) {
+        const BatchRatios& flux = sums[all_flux];
+        const Estimate total = flux.estimate(0, walks);
+        double spread = 0, within = 0;
+        for (std::size_t slot = first; slot <= last; ++slot) {
+            const Estimate bin = flux.estimate(slot, walks);
+            spread += bin.standard_error;
+            within += bin.mean;
+        }
+        return total.standard_error <= error * total.mean && spread <= error * within;
+    };
+}
 
 // Nothing enters or nothing scatters: exact zeros.
 HalfSpaceTally emptyTally(const HalfSpaceOptions& options) {
@@ -161,10 +178,6 @@ HalfSpaceTally emptyTally(const HalfSpaceOptions& options) {
 std::vector<double> scaled(std::vector<double> edges, double sigma_t) {
     for (double& edge : edges) edge *= sigma_t;
     return edges;
-}
-
-std::uint64_t chunksOf(std::uint64_t walks) {
-    return std::min(walks, std::max(kFewestChunks, (walks + kLargestChunk - 1) / kLargestChunk));
 }
 
 }  // namespace
@@ -194,34 +207,24 @@ HalfSpaceResult walkHalfSpace(const HalfSpaceProblem& problem, const HalfSpaceOp
                              options.grid_extent_mm * sigma_t};
     std::optional<BestPlan> best;
     if (result.estimator == Estimator::best) best.emplace(walk, edges);
-    std::optional<double> reach;
-    if (best) reach = best->reach(options.walks);
-    Reduction reduction(problem, options, layout, 1 - beam.specular, reach);
-    const std::uint64_t chunks = chunksOf(options.walks);
-    const auto firstWalk = [&](std::uint64_t chunk) {  // chunks differ by at most one walk
-        return options.walks / chunks * chunk + std::min(options.walks % chunks, chunk);
+    ChunkedWalk job;
+    job.plan = planChunks(options.walks);
+    if (options.control.state && !options.control.state->empty()) job.plan.size = options.control.state->chunk_size;
+    job.threads = options.threads;
+    job.enough = enoughFor(options.control.until_error, layout);
+    job.control = options.control;
+    const auto walkOne = [&](std::uint64_t chunk, std::uint64_t walks, ExitTally& tally) {
+        return best ? walkBestChunk(*best, options.seed, chunk, walks, tally)
+                    : walkHalfSpaceChunk(walk, options.seed, chunk, walks, tally);
     };
-
-    // Blocks bound the memory; within a block threads take chunks as they come, and sums run in chunk order.
-    const std::uint64_t block = 4 * static_cast<std::uint64_t>(result.threads);
-    std::atomic<std::uint64_t> done = 0, collisions = 0;
-    const auto begin = std::chrono::steady_clock::now();
-    for (std::uint64_t start = 0; start < chunks; start += block) {
-        std::vector<ExitTally> tallies(std::min(block, chunks - start), ExitTally(layout));
-        parallelFor(tallies.size(), options.threads, [&](std::size_t i) {
-            if (observer.cancelled()) throw interruptedError();
-            const std::uint64_t chunk = start + i, walks = firstWalk(chunk + 1) - firstWalk(chunk);
-            collisions += best ? walkBestChunk(*best, options.seed, chunk, walks, tallies[i])
-                               : walkHalfSpaceChunk(walk, options.seed, chunk, walks, tallies[i]);
-            observer.progress("walk", done += walks, options.walks, "walks");
-        });
-        for (std::size_t i = 0; i < tallies.size(); ++i)
-            reduction.add(tallies[i], firstWalk(start + i + 1) - firstWalk(start + i));
-    }
-    result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    result.walks = options.walks;
-    result.collisions = collisions;
-    reduction.finish(result);
+    const ChunkedResult walked = walkChunks(job, emptySums(layout), ExitTally(layout), walkOne, addChunk, observer);
+    result.seconds = walked.seconds;
+    result.walks = walked.walks;
+    result.collisions = walked.collisions;
+    result.interrupted = walked.interrupted;
+    std::optional<double> reach;
+    if (best && walked.walks > 0) reach = best->reach(walked.walks);
+    Reduction(problem, options, layout, 1 - beam.specular).finish(walked.sums, walked.walks, reach, result);
     return result;
 }
 

@@ -8,6 +8,7 @@
 #include "base/estimate.h"
 #include "base/observer.h"
 #include "scene/medium.h"
+#include "transport/walk/walk_state.h"
 
 namespace searchlight {
 
@@ -33,6 +34,7 @@ struct HalfSpaceOptions {
     double grid_extent_mm = 0;     ///< the square is [-extent, extent]^2
     int threads = 0;               ///< 0: all
     Estimator estimator = Estimator::analogue;  ///< a grid, and g > 0.7, are always walked by the analogue
+    WalkControl control;  ///< until_error: of the total, and of the profile: the mean over its bins, weighted by flux
 };
 
 /// What left the surface after scattering, per unit incident flux.
@@ -59,6 +61,7 @@ struct HalfSpaceResult {
     double seconds = 0;  ///< wall time of walking
     int threads = 0;
     std::string instruction_set;  ///< "AVX3" (AVX-512), "AVX2", "SSE4"...
+    bool interrupted = false;     ///< fewer walks than asked for; they may be none
 };
 
 /// The searchlight problem of one channel of a medium.

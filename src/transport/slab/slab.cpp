@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -13,14 +11,13 @@
 #include "base/parallel.h"
 #include "base/text.h"
 #include "transport/slab/slab_walk.h"
+#include "transport/walk/chunks.h"
 #include "transport/walk/fresnel.h"
 
 namespace searchlight {
 
 namespace {
 
-constexpr std::uint64_t kFewestChunks = 64;
-constexpr std::uint64_t kLargestChunk = 65'536;
 constexpr std::size_t kMostSlots = std::size_t{1} << 22;  // of which a few per thread are in memory at once
 constexpr double kLargest = 1e9;
 // Free paths in a clear layer: longer than anything, its products within float.
@@ -183,13 +180,15 @@ std::vector<Occupied> occupiedDepths(const SlabProblem& problem, const SlabOptio
 // From sums over chunks to the numbers of the result.
 class Reduction {
 public:
-    Reduction(const SlabProblem& problem, const SlabOptions& options, const SlabLayout& layout, double transmitted)
-        : problem_(problem), options_(options), layout_(layout), transmitted_(transmitted), sums_(layout.slots()) {}
-
-    void add(const SlabTally& chunk, std::uint64_t walks) {
-        sums_.add(chunk.flux(), static_cast<double>(walks));
-        walked_ = true;
-    }
+    /// `walks` behind the sums; 0: no light came into the slab, and all is exactly 0.
+    Reduction(const SlabProblem& problem, const SlabOptions& options, const SlabLayout& layout, double transmitted,
+              const BatchRatios& sums, std::uint64_t walks)
+        : problem_(problem),
+          options_(options),
+          layout_(layout),
+          transmitted_(transmitted),
+          sums_(sums),
+          walks_(walks) {}
 
     void finish(SlabResult& result) const {
         result.R = total(SlabLayout::R_scattered);
@@ -227,9 +226,9 @@ private:
     // Per unit incident flux. The scatter of batches without an event would be 0; one event is the least that can be
     // said.
     Estimate flux(std::size_t slot, double one_event) const {
-        if (!walked_) return {};  // no light came here: exact zeros
-        Estimate e = sums_.estimate(slot, options_.walks);
-        e.standard_error = std::max(e.standard_error, one_event / static_cast<double>(options_.walks));
+        if (walks_ == 0) return {};
+        Estimate e = sums_.estimate(slot, walks_);
+        e.standard_error = std::max(e.standard_error, one_event / static_cast<double>(walks_));
         return {transmitted_ * e.mean, transmitted_ * e.standard_error, e.count};
     }
 
@@ -291,12 +290,20 @@ private:
     const SlabOptions& options_;
     const SlabLayout& layout_;
     double transmitted_;
-    BatchRatios sums_;
-    bool walked_ = false;
+    const BatchRatios& sums_;
+    std::uint64_t walks_;
 };
 
-std::uint64_t chunksOf(std::uint64_t walks) {
-    return std::min(walks, std::max(kFewestChunks, (walks + kLargestChunk - 1) / kLargestChunk));
+// Whether what is reflected, transmitted and absorbed is known well enough, where there is any.
+EnoughFunction enoughFor(double error, const SlabLayout& layout) {
+    if (error <= 0) return {};
+    return [error, &layout](const std::vector<BatchRatios>& sums, std::uint64_t walks) {
+        for (const SlabLayout::Run run : {SlabLayout::R_scattered, SlabLayout::T_scattered, SlabLayout::A_total}) {
+            const Estimate e = sums[0].estimate(layout.first(run), walks);
+            if (e.mean > 0 && e.standard_error > error * e.mean) return false;
+        }
+        return true;
+    };
 }
 
 }  // namespace
@@ -325,38 +332,33 @@ SlabResult walkSlab(const SlabProblem& problem, const SlabOptions& options, Obse
     result.specular = beam.specular;
     result.threads = options.threads > 0 ? options.threads : hardwareThreads();
     result.instruction_set = slabInstructionSet();
-    Reduction reduction(problem, options, layout, 1 - beam.specular);
     if (beam.first == problem.layers.size() || beam.specular == 1) {  // nothing to walk in
-        reduction.finish(result);
+        Reduction(problem, options, layout, 1 - beam.specular, BatchRatios(layout.slots()), 0).finish(result);
         result.T_unscattered = {1 - beam.specular, 0, 0};
         return result;
     }
 
     const SlabWalk walk = walkOf(problem, beam);
-    const std::uint64_t chunks = chunksOf(options.walks);
-    const auto firstWalk = [&](std::uint64_t chunk) {  // chunks differ by at most one walk
-        return options.walks / chunks * chunk + std::min(options.walks % chunks, chunk);
-    };
-
-    // Blocks bound the memory; within a block threads take chunks as they come, and sums run in chunk order.
-    const std::uint64_t block = 4 * static_cast<std::uint64_t>(result.threads);
-    std::atomic<std::uint64_t> done = 0, collisions = 0;
-    const auto begin = std::chrono::steady_clock::now();
-    for (std::uint64_t start = 0; start < chunks; start += block) {
-        std::vector<SlabTally> tallies(std::min(block, chunks - start), SlabTally(layout));
-        parallelFor(tallies.size(), options.threads, [&](std::size_t i) {
-            if (observer.cancelled()) throw interruptedError();
-            const std::uint64_t chunk = start + i, walks = firstWalk(chunk + 1) - firstWalk(chunk);
-            collisions += walkSlabChunk(walk, options.seed, chunk, walks, tallies[i]);
-            observer.progress("walk", done += walks, options.walks, "walks");
-        });
-        for (std::size_t i = 0; i < tallies.size(); ++i)
-            reduction.add(tallies[i], firstWalk(start + i + 1) - firstWalk(start + i));
-    }
-    result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    result.walks = options.walks;
-    result.collisions = collisions;
-    reduction.finish(result);
+    ChunkedWalk job;
+    job.plan = planChunks(options.walks);
+    if (options.control.state && !options.control.state->empty()) job.plan.size = options.control.state->chunk_size;
+    job.threads = options.threads;
+    job.enough = enoughFor(options.control.until_error, layout);
+    job.control = options.control;
+    const ChunkedResult walked = walkChunks(
+        job, {BatchRatios(layout.slots())}, SlabTally(layout),
+        [&](std::uint64_t chunk, std::uint64_t walks, SlabTally& tally) {
+            return walkSlabChunk(walk, options.seed, chunk, walks, tally);
+        },
+        [](const SlabTally& chunk, std::uint64_t walks, std::vector<BatchRatios>& sums) {
+            sums[0].add(chunk.flux(), static_cast<double>(walks));
+        },
+        observer);
+    result.seconds = walked.seconds;
+    result.walks = walked.walks;
+    result.collisions = walked.collisions;
+    result.interrupted = walked.interrupted;
+    Reduction(problem, options, layout, 1 - beam.specular, walked.sums[0], walked.walks).finish(result);
     return result;
 }
 

@@ -10,6 +10,7 @@
 #include "base/estimate.h"
 #include "base/observer.h"
 #include "transport/slab/slab_tally.h"
+#include "transport/walk/walk_state.h"
 
 namespace searchlight {
 
@@ -42,6 +43,7 @@ struct SlabOptions {
     double depth_mm = 0;           ///< from the top of the slab
     bool maps = false;             ///< the tallies over two variables, too
     int threads = 0;               ///< 0: all
+    WalkControl control;           ///< until_error: of R, T and A, those above 0
 };
 
 struct SlabSeries {
@@ -73,6 +75,7 @@ struct SlabResult {
     double seconds = 0;  ///< wall time of walking
     int threads = 0;
     std::string instruction_set;  ///< "AVX3" (AVX-512), "AVX2", "SSE4"...
+    bool interrupted = false;     ///< fewer walks than asked for; they may be none
 };
 
 /// Where the walk counts what. Throws as walkSlab.

@@ -93,6 +93,10 @@ public:
 
     std::span<const double> flux() const { return flux_; }
 
+    /// All sums as one list, and back.
+    std::vector<double> pack() const { return flux_; }
+    void unpack(std::span<const double> values) { flux_.assign(values.begin(), values.end()); }
+
 private:
     double& at(SlabLayout::Run run, std::size_t index) { return flux_[layout_->first(run) + index]; }
 

@@ -83,6 +83,26 @@ void ExitTally::add(std::span<const float> xs, std::span<const float> ys, std::s
     }
 }
 
+std::vector<double> ExitTally::pack() const {
+    std::vector<double> values;
+    for (const Sums& sums : sums_) {
+        values.insert(values.end(), sums.flux.begin(), sums.flux.end());
+        values.push_back(sums.x);
+        values.push_back(sums.r2);
+    }
+    return values;
+}
+
+void ExitTally::unpack(std::span<const double> values) {
+    assert(values.size() == orders * (layout_->slots() + 2));
+    const double* next = values.data();
+    for (Sums& sums : sums_) {
+        for (double& flux : sums.flux) flux = *next++;
+        sums.x = *next++;
+        sums.r2 = *next++;
+    }
+}
+
 void BatchRatios::add(std::span<const double> numerators, double denominator) {
     assert(numerators.size() == sum_.size());
     for (std::size_t i = 0; i < numerators.size(); ++i) {
@@ -104,6 +124,23 @@ Estimate BatchRatios::estimate(std::size_t i, std::uint64_t count) const {
     const double residuals = square_[i] - 2 * ratio * cross_[i] + ratio * ratio * denominator_square_;
     const double batches = static_cast<double>(batches_);
     return {ratio, std::sqrt(std::max(0.0, residuals) * batches / (batches - 1)) / denominator_, count};
+}
+
+std::vector<double> BatchRatios::pack() const {
+    std::vector<double> values{static_cast<double>(batches_), denominator_, denominator_square_};
+    for (const std::vector<double>* list : {&sum_, &square_, &cross_})
+        values.insert(values.end(), list->begin(), list->end());
+    return values;
+}
+
+void BatchRatios::unpack(std::span<const double> values) {
+    assert(values.size() == packedSize());
+    batches_ = static_cast<std::uint64_t>(values[0]);
+    denominator_ = values[1];
+    denominator_square_ = values[2];
+    const double* next = values.data() + 3;
+    for (std::vector<double>* list : {&sum_, &square_, &cross_})
+        for (double& value : *list) value = *next++;
 }
 
 }  // namespace searchlight

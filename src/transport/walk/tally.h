@@ -58,6 +58,10 @@ public:
     const Sums& sums(Order order) const { return sums_[order]; }
     Sums& sums(Order order) { return sums_[order]; }
 
+    /// All sums as one list, and back.
+    std::vector<double> pack() const;
+    void unpack(std::span<const double> values);
+
 private:
     const TallyLayout* layout_;
     Sums sums_[orders];
@@ -73,6 +77,11 @@ public:
 
     /// Ratio of the sums and its standard error; infinite with fewer than two batches or nothing in the denominator.
     Estimate estimate(std::size_t index, std::uint64_t count) const;
+
+    /// All sums as one list, and back: the same size as this.
+    std::vector<double> pack() const;
+    void unpack(std::span<const double> values);
+    std::size_t packedSize() const { return 3 * sum_.size() + 3; }
 
 private:
     std::vector<double> sum_, square_, cross_;  ///< of n, n^2, n d

@@ -1,0 +1,161 @@
+// bench transport: how fast the half-space is walked, and what that is worth.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <ctime>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "base/parallel.h"
+#include "job/command_table.h"
+#include "job/json.h"
+#include "transport/half_space/half_space.h"
+#include "transport/half_space/half_space_walk.h"
+
+namespace searchlight {
+
+namespace {
+
+struct Case {
+    const char* name;
+    HalfSpaceProblem problem;
+};
+
+// Jensen 2001: published reduced coefficients, taken with g = 0. Then forward scattering and oblique incidence.
+constexpr Case cases[] = {
+    {"marble, red", {.sigma_a = 0.0021, .sigma_s = 2.19, .eta = 1.5}},
+    {"skin1, red", {.sigma_a = 0.032, .sigma_s = 0.74, .eta = 1.3}},
+    {"ketchup, blue", {.sigma_a = 1.45, .sigma_s = 0.03, .eta = 1.3}},
+    {"whole milk, green", {.sigma_a = 0.0024, .sigma_s = 3.21, .eta = 1.3}},
+    {"g = 0.9", {.sigma_a = 0.01, .sigma_s = 10, .g = 0.9, .eta = 1.4}},
+    {"skin1, red, 60 deg", {.sigma_a = 0.032, .sigma_s = 0.74, .eta = 1.3, .angle_deg = 60}},
+};
+constexpr std::array<double, 5> radii{0.5, 1, 2, 5, 10};  // in reduced mean free paths
+constexpr int bins_to_5 = 53, bins_to_10 = 103;           // of 0.1, two more than the last radius needs
+constexpr std::uint64_t first_walks = 200'000;
+
+struct Timed {
+    HalfSpaceResult result;
+    double cpu_seconds = 0;
+};
+
+Timed walkTimed(const HalfSpaceProblem& problem, const HalfSpaceOptions& options, Observer& observer) {
+    const std::clock_t begin = std::clock();
+    Timed timed{walkHalfSpace(problem, options, observer)};
+    timed.cpu_seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+    return timed;
+}
+
+// As many walks as take about so long, after a first run that finds out how many those are.
+Timed walkFor(double seconds, const HalfSpaceProblem& problem, HalfSpaceOptions options, Observer& observer) {
+    options.walks = first_walks;
+    const double once = std::max(walkTimed(problem, options, observer).cpu_seconds, 1e-4);
+    options.walks = static_cast<std::uint64_t>(std::max(1.0, seconds / once) * static_cast<double>(first_walks));
+    return walkTimed(problem, options, observer);
+}
+
+// 1 / (relative variance x CPU seconds) of bins of 0.1 reduced mean free paths; the relative variance is the mean over
+// five neighbours, since each is known to some 10 % from the scatter of the chunks. Null where a bin has seen nothing.
+Json meritAt(double radius, const Timed& timed) {
+    const HalfSpaceTally& tally = timed.result.all;
+    const auto middle = static_cast<std::size_t>(10 * radius + 0.5);
+    if (middle + 2 >= tally.Rd.size()) return nullptr;
+    double relative_variance = 0;
+    for (std::size_t i = middle - 2; i <= middle + 2; ++i) {
+        if (tally.Rd[i] == 0) return nullptr;
+        const double relative = tally.standard_error[i] / tally.Rd[i];
+        relative_variance += relative * relative / 5;
+    }
+    return 1 / (relative_variance * timed.cpu_seconds);
+}
+
+Json rowJson(const Case& one, Estimator estimator, int bins, double seconds, std::uint64_t seed, Observer& observer) {
+    const HalfSpaceProblem& problem = one.problem;
+    const double mfp = 1 / (problem.sigma_a + (1 - problem.g) * problem.sigma_s);
+    HalfSpaceOptions options;
+    options.seed = seed;
+    options.threads = 1;
+    options.estimator = estimator;
+    for (int i = 0; i <= bins; ++i) options.edges_mm.push_back(0.1 * i * mfp);
+    const Timed timed = walkFor(seconds, problem, options, observer);
+    const HalfSpaceResult& result = timed.result;
+    Json row{{"case", one.name},
+             {"estimator", estimator == Estimator::best ? "best" : "analogue"},
+             {"walked_by", result.estimator == Estimator::best ? "best" : "analogue"},
+             {"bins_to_mfp", 0.1 * bins},
+             {"walks_per_s", static_cast<double>(result.walks) / timed.cpu_seconds},
+             {"collisions_per_s", static_cast<double>(result.collisions) / timed.cpu_seconds}};
+    for (const double radius : radii) row["merit"].push_back(meritAt(radius, timed));
+    const Estimate& total = result.all.total;
+    row["merit_total"] = total.mean * total.mean / (total.standard_error * total.standard_error * timed.cpu_seconds);
+    row["cpu_seconds"] = timed.cpu_seconds;
+    return row;
+}
+
+// Wall time of one thread over that of all, on the same walks.
+double speedup(double seconds, Observer& observer) {
+    HalfSpaceOptions options;
+    options.edges_mm = {0, 1};
+    options.threads = 1;
+    const Timed one = walkFor(seconds, cases[0].problem, options, observer);
+    options.walks = one.result.walks;
+    options.threads = 0;
+    return one.result.seconds / walkTimed(cases[0].problem, options, observer).result.seconds;
+}
+
+std::string meritText(const Json& merit) { return merit.is_null() ? "-" : fmt::format("{:.3g}", merit.get<double>()); }
+
+JobResult runBenchTransport(const Job& job, Engine&, Observer& observer) {
+    const Options options(job);
+    const double seconds = options.number("seconds");
+    Json document = documentJson("searchlight-bench/1", job);
+    document["bench"] = "transport";
+    document["radii_mfp"] = radii;
+    document["merit"] = "1 / (relative variance x CPU seconds) of bins of 0.1 reduced mean free paths, one thread";
+    JobResult result;
+    result.text = fmt::format("{:20} {:10} {:>9} {:>12}  figure of merit at r =\n{:20} {:10} {:>9} {:>12}", "", "",
+                              "walks/s", "collisions/s", "", "", "", "");
+    for (const double radius : radii) result.text += fmt::format(" {:>9}", radius);
+    result.text += fmt::format(" {:>9}\n", "total");
+    const std::uint64_t total = std::size(cases) * 4;
+    std::uint64_t done = 0;
+    Observer quiet;  // of each row's own walks
+    for (const Case& one : cases)
+        for (const int bins : {bins_to_5, bins_to_10})
+            for (const Estimator estimator : {Estimator::analogue, Estimator::best}) {
+                if (observer.cancelled()) throw interruptedError();
+                observer.progress("bench", done++, total, "rows");
+                Json row = rowJson(one, estimator, bins, seconds, job.seed, quiet);
+                document["instruction_set"] = halfSpaceInstructionSet();
+                result.text +=
+                    fmt::format("{:20} {:10} {:9.3g} {:12.3g}", one.name, row["estimator"].get<std::string>(),
+                                row["walks_per_s"].get<double>(), row["collisions_per_s"].get<double>());
+                for (const Json& merit : row["merit"]) result.text += fmt::format(" {:>9}", meritText(merit));
+                result.text += fmt::format(" {:>9}\n", meritText(row["merit_total"]));
+                document["rows"].push_back(std::move(row));
+            }
+    document["threads"] = hardwareThreads();
+    document["speedup"] = speedup(seconds, quiet);
+    result.text += fmt::format("{} threads walk {:.2f} times as fast as one ({})\n", hardwareThreads(),
+                               document["speedup"].get<double>(), document["instruction_set"].get<std::string>());
+    result.json = document.dump(1);
+    if (!job.output.empty()) writeFile(job.output, result.json + "\n");
+    return result;
+}
+
+}  // namespace
+
+Command benchTransportCommand() {
+    return {
+        .name = "bench transport",
+        .summary = "Time the walks of the half-space, and say what each estimator is worth",
+        .example = "searchlight bench transport --json",
+        .options =
+            {{.name = "seconds", .unit = "s", .min = 0.01, .max = 3600, .value = 2.0, .doc = "CPU time of each row"}},
+        .uses_seed = true,
+        .output = "the JSON document",
+        .run = runBenchTransport};
+}
+
+}  // namespace searchlight

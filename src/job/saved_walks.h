@@ -1,0 +1,41 @@
+// Random walks in a file between two runs of a job: "searchlight-walks/1". The numbers of a job that was stopped and
+// taken up again are those of one that never stopped.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "job/command.h"
+#include "job/json.h"
+#include "transport/walk/walk_state.h"
+
+namespace searchlight {
+
+class SavedWalks {
+public:
+    /// One state per walk of the job (a channel, a slab). `problem` is everything that the sums depend on but the
+    /// number of walks. With --resume reads the file where it exists; throws an input Error when it holds another
+    /// problem, naming the first difference, or cannot be read.
+    SavedWalks(const Options& options, const Job& job, Json problem, std::size_t states);
+
+    /// How walk `i` goes on: shared by all processes, stopped by --until-error, kept in the file.
+    WalkControl control(std::size_t i);
+
+    /// Whether an interruption leaves something: with --resume, an output, or several processes, which stop together.
+    bool keeps() const { return keeps_; }
+
+    /// Writes the file, if there is one.
+    void save() const;
+
+private:
+    void read();
+
+    std::string path_;
+    Json problem_;
+    double until_error_ = 0;
+    bool keeps_ = false;
+    std::vector<WalkState> states_;
+};
+
+}  // namespace searchlight

@@ -1,0 +1,25 @@
+#include "transport/walk/chunks.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace searchlight {
+
+namespace {
+
+constexpr std::uint64_t kFewestChunks = 64;
+constexpr std::uint64_t kLargestChunk = 65'536;
+
+}  // namespace
+
+ChunkPlan planChunks(std::uint64_t walks) {
+    return {walks, std::clamp<std::uint64_t>(walks / kFewestChunks, 1, kLargestChunk)};
+}
+
+bool isMilestone(std::uint64_t chunks) {
+    // 64, 80, 96, 112, 128, 160, ...: four to each doubling.
+    if (chunks < kFewestChunks) return false;
+    return chunks % (std::bit_floor(chunks) / 4) == 0;
+}
+
+}  // namespace searchlight

@@ -1,0 +1,31 @@
+// The sums of random walks that may stop, go on, and be shared between processes.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "transport/walk/tally.h"
+
+namespace searchlight {
+
+/// What a job has summed so far. One that goes on from here ends with the numbers of one that never stopped.
+struct WalkState {
+    std::uint64_t chunk_size = 0;  ///< 0: nothing was walked yet
+    std::uint64_t chunks = 0;      ///< whole chunks behind the sums
+    std::uint64_t collisions = 0;
+    double seconds = 0;
+    std::vector<BatchRatios> sums;
+
+    bool empty() const { return chunk_size == 0; }
+};
+
+/// How long walks are walked, beyond their number.
+struct WalkControl {
+    double until_error = 0;      ///< above 0: stop when what is known best has this relative standard error
+    bool share = false;          ///< with the other processes of the job (base/ranks.h), which all walk this
+    WalkState* state = nullptr;  ///< begin there, and leave the sums there; null: an interruption throws
+    std::function<void(const WalkState&)> save;  ///< called every minute or so with what there is; may be empty
+};
+
+}  // namespace searchlight

@@ -1,0 +1,109 @@
+// References that stop, go on, and share their walks between processes.
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "base/text.h"
+#include "program.h"
+
+namespace searchlight {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+const std::string half_space = "reference halfspace --sigma-a 0.1 --sigma-s 0.9 --eta 1.3 --edges 0,1,3 --json --seed 5 ";
+
+json numbers(const std::string& text) {
+    const json document = json::parse(text);
+    return {document["diffuse"], document["profile"], document["mean_r2_mm2"], document["walks"],
+            document["collisions"]};
+}
+
+TEST_F(Program, AResumedReferenceHasTheNumbersOfOneThatNeverStopped) {
+    const Output straight = run(half_space + "--walks 8388608");
+    const Output first = run(half_space + "--walks 4194304 --resume walks.json");
+    EXPECT_EQ(json::parse(first.out)["walks"], 4194304);
+    const Output second = run(half_space + "--walks 8388608 --resume walks.json");
+    ASSERT_EQ(second.exit_code, 0) << second.err;
+    EXPECT_EQ(numbers(second.out), numbers(straight.out));
+}
+
+TEST_F(Program, CtrlCLeavesAValidFileThatGoesOn) {
+    const Output stopped =
+        run(half_space + "--walks 1e13 --resume walks.json -o part.json", "timeout --preserve-status -s INT 2");
+    EXPECT_EQ(stopped.exit_code, 130) << stopped.err;
+    const json part = json::parse(readFile(folder() / "part.json"));
+    EXPECT_EQ(part["interrupted"], true);
+    const double walks = part["walks"];
+    EXPECT_GT(walks, 0);
+    // All that was walked is kept, so that as many walks again add nothing.
+    const Output again = run(half_space + "--walks " + numberText(walks) + " --resume walks.json");
+    ASSERT_EQ(again.exit_code, 0) << again.err;
+    EXPECT_EQ(numbers(again.out), numbers(part.dump()));
+}
+
+TEST_F(Program, WalksOfAnotherProblemAreNotResumed) {
+    ASSERT_EQ(run(half_space + "--walks 1000 --resume walks.json").exit_code, 0);
+    const std::string before = readFile(folder() / "walks.json");
+    const Output other = run(half_space + "--walks 1000 --seed 6 --resume walks.json");
+    EXPECT_EQ(other.exit_code, 3);
+    EXPECT_THAT(other.err, HasSubstr("/problem/seed: these are walks of another problem: /seed differs"));
+    EXPECT_EQ(readFile(folder() / "walks.json"), before);
+}
+
+TEST_F(Program, DamagedWalksAreRefusedAndKept) {
+    ASSERT_EQ(run(half_space + "--walks 1000 --resume walks.json").exit_code, 0);
+    const std::string good = readFile(folder() / "walks.json");
+    const json document = json::parse(good);
+    struct Damage {
+        const char* pointer;
+        json value;
+        const char* message;
+    };
+    const Damage damages[] = {
+        {"/format", "searchlight-walks/2", "'searchlight-walks/2' cannot be read (a newer version wrote it)"},
+        {"/states", json::array(), "should hold 3 walks"},
+        {"/states/0/chunks", -1, "/states/0/chunks"},
+        {"/states/0/chunks", 3, "does not have as many batches as the walk has chunks"},
+        {"/states/0/sums/0", json::array({1, 2}), "is no list of sums"},
+        {"/states/0/sums/1/4", "many", "holds what is no number"},
+        {"/states/0/sums", json::array(), "the saved walks have other tallies"},
+    };
+    for (const Damage& damage : damages) {
+        json bad = document;
+        bad[json::json_pointer(damage.pointer)] = damage.value;
+        writeFile(folder() / "walks.json", bad.dump());
+        const Output output = run(half_space + "--walks 1000 --resume walks.json");
+        EXPECT_EQ(output.exit_code, 3) << damage.pointer;
+        EXPECT_THAT(output.err, HasSubstr(damage.message));
+        EXPECT_EQ(readFile(folder() / "walks.json"), bad.dump());
+    }
+    writeFile(folder() / "walks.json", good.substr(0, good.size() / 2));
+    EXPECT_EQ(run(half_space + "--walks 1000 --resume walks.json").exit_code, 3);
+}
+
+TEST_F(Program, AReferenceStopsAtTheErrorAskedFor) {
+    const Output output = run(half_space + "--walks 1e9 --until-error 1%");
+    ASSERT_EQ(output.exit_code, 0) << output.err;
+    const json document = json::parse(output.out);
+    EXPECT_LT(document["walks"], 1e7);
+    EXPECT_LE(document["diffuse"]["stderr"][0], 0.01 * document["diffuse"]["mean"][0].get<double>());
+    EXPECT_EQ(run(half_space + "--until-error 2").exit_code, 2);
+}
+
+TEST_F(Program, ProcessesShareTheWalksOfAReference) {
+    if (std::string_view(SEARCHLIGHT_MPIRUN).empty()) GTEST_SKIP() << "built without SEARCHLIGHT_MPI";
+    const std::string mpirun = SEARCHLIGHT_MPIRUN " --allow-run-as-root --oversubscribe -n 3";
+    const Output one = run(half_space + "--walks 1e6"), three = run(half_space + "--walks 1e6", mpirun);
+    ASSERT_EQ(three.exit_code, 0) << three.err;
+    EXPECT_EQ(numbers(three.out), numbers(one.out));
+    const Output wrong = run(half_space + "--walks 0", mpirun);
+    EXPECT_NE(wrong.exit_code, 0);
+    EXPECT_THAT(wrong.err, HasSubstr("searchlight: "));
+    const Output other = run("models --json", mpirun);
+    EXPECT_TRUE(json::accept(other.out)) << "one process answers, not three";
+}
+
+}  // namespace
+}  // namespace searchlight
