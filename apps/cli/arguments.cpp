@@ -11,6 +11,7 @@
 #include "base/text.h"
 #include "base/version.h"
 #include "job/command.h"
+#include "scene_flags.h"
 
 namespace searchlight {
 
@@ -34,12 +35,18 @@ std::string describe(const Param& param) {
     return text;
 }
 
+bool isPositional(const Command& command, const Param& param) {
+    const std::vector<std::string_view> names = split(command.positional, ' ');
+    return std::ranges::find(names, param.name) != names.end();
+}
+
 // The arguments of one subcommand as they were typed.
 struct Typed {
     const Command* command = nullptr;
     CLI::App* app = nullptr;
     std::map<std::string, std::vector<std::string>, std::less<>> options;   // of the command
     std::map<std::string, std::vector<std::string>, std::less<>> material;  // of the scene's material
+    TypedFlags scene_flags;                                                 // of the rest of the scene
     std::string scene, seed, output;
 };
 
@@ -97,25 +104,37 @@ void declare(CLI::App& root, Typed& typed, Arguments& arguments) {
     app.footer("Example:\n  " + std::string(command.example));
     for (const Param& param : command.options) {
         std::string names = flagOf(param.name);
-        if (param.name == command.positional) names += "," + param.name;
+        if (isPositional(command, param)) names += "," + param.name;
+        if (param.letter) names = fmt::format("-{},{}", param.letter, names);
         CLI::Option* option = addOption(app, names, typed.options[param.name], describe(param));
         if (param.type == ParamType::toggle) option->expected(0, 1);
     }
-    if (command.uses_material) {
+    if (command.uses_scene) {
+        app.add_option("--scene", typed.scene, "a scene file, which the flags change")->type_name("")->group("Scene");
+        for (const SceneFlag& flag : sceneFlags()) {
+            std::string names = flagOf(flag.name);
+            if (flag.name == "object") names += ",object";
+            CLI::Option* option =
+                addOption(app, names, typed.scene_flags[std::string(flag.name)], std::string(flag.doc), "Scene");
+            if (flag.value_optional) option->expected(0, 1);
+        }
+    }
+    if (command.uses_material || command.uses_scene)
         for (const MaterialFlag& flag : material_flags)
             addOption(app, flagOf(flag.name), typed.material[flag.name], flag.doc, "Material");
+    if (command.uses_material && !command.uses_scene)
         app.add_option("--scene", typed.scene, "a scene file, whose material is used")
             ->type_name("")
             ->group("Material");
-    }
     if (command.uses_seed) app.add_option("--seed", typed.seed, "of the random walks (default 1)")->type_name("");
     if (!command.output.empty())
         app.add_option("-o,--output", typed.output, std::string(command.output))->type_name("");
     app.add_flag("--json", arguments.json, "print one JSON document");
     app.add_flag("--print-job", arguments.print_job, "print the job file for `searchlight run` and stop");
-    const bool reads_models = std::ranges::any_of(
+    const bool lists_models = std::ranges::any_of(
         command.options, [](const Param& param) { return param.name == "model" || param.name == "models"; });
-    if (reads_models) app.add_flag("--watch", arguments.watch, "run again whenever a model file changes, until Ctrl+C");
+    if (lists_models || command.uses_scene)
+        app.add_flag("--watch", arguments.watch, "run again whenever a model file changes, until Ctrl+C");
 }
 
 // The material flags of a command line, each read as the scene format reads its key.
@@ -180,7 +199,9 @@ Job jobOf(const Typed& typed) {
     Job job;
     job.command = typed.command->name;
     if (!typed.scene.empty()) job.scene = parseScene(readFile(typed.scene), typed.scene);
-    if (typed.command->uses_material) applyMaterial(MaterialFlags(typed), job.scene.material);
+    if (typed.command->uses_material || typed.command->uses_scene)
+        applyMaterial(MaterialFlags(typed), job.scene.material);
+    if (typed.command->uses_scene) applySceneFlags(typed.scene_flags, job.scene);
     for (const Param& param : typed.command->options) {
         const std::vector<std::string>& values = typed.options.at(param.name);
         if (values.empty()) {
@@ -189,7 +210,7 @@ Job jobOf(const Typed& typed) {
             continue;
         }
         // A list in text, such as --set, may be given piece by piece.
-        const bool joins = param.type == ParamType::text && param.name != typed.command->positional;
+        const bool joins = param.type == ParamType::text && !isPositional(*typed.command, param);
         const bool stands_alone = param.type == ParamType::toggle && values.back().empty();
         job.options[param.name] = stands_alone ? true : parseValue(param, joins ? join(values, ",") : values.back());
     }

@@ -59,8 +59,9 @@ void TerminalObserver::progress(std::string_view task, std::uint64_t done, std::
     constexpr int width = 28;
     const int filled = static_cast<int>(fraction * width);
     clearLine();
-    fmt::print(stderr, "{} [{:#<{}}{:-<{}}] {:3.0f} %  {}{}/s  {} left", task, "", filled, "", width - filled,
-               100 * fraction, rate(speed), unit, duration(left));
+    fmt::print(stderr, "{} [{:#<{}}{:-<{}}] {:3.0f} %", task, "", filled, "", width - filled, 100 * fraction);
+    // Until something is done, nothing is known of the rest.
+    if (done > start_done_) fmt::print(stderr, "  {}{}/s  {} left", rate(speed), unit, duration(left));
     std::fflush(stderr);
     bar_ = true;
 }

@@ -54,7 +54,13 @@ struct Text {
     bool upwards = false;  ///< turned by 90 degrees about `at`
 };
 
-using Shape = std::variant<Polyline, Polygon, Box, Circle, Text>;
+/// A picture, scaled into the box.
+struct Picture {
+    Rect rect;
+    std::string png;  ///< the bytes of a file
+};
+
+using Shape = std::variant<Polyline, Polygon, Box, Circle, Text, Picture>;
 
 struct Drawing {
     double width = 0, height = 0;

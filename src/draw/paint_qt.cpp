@@ -121,12 +121,23 @@ struct ShapePainter {
         painter.drawText(QPointF(-shift, 0), string);
         painter.restore();
     }
+
+    void operator()(const Picture& picture) const {
+        QImage image;
+        image.loadFromData(reinterpret_cast<const uchar*>(picture.png.data()), static_cast<int>(picture.png.size()),
+                           "PNG");
+        const QRectF box(picture.rect.left, picture.rect.top, picture.rect.width(), picture.rect.height());
+        // A painter samples between pixels; what shrinks has to be averaged first.
+        const QSize size = painter.transform().mapRect(box).size().toSize();
+        if (size.width() < image.width()) image = image.scaled(size, Qt::IgnoreAspectRatio, Qt::SmoothTransformation);
+        painter.drawImage(box, image);
+    }
 };
 
 void paint(QPaintDevice& device, const Drawing& drawing, double scale) {
     const QString family = installedFont();
     QPainter painter(&device);
-    painter.setRenderHints(QPainter::Antialiasing | QPainter::TextAntialiasing);
+    painter.setRenderHints(QPainter::Antialiasing | QPainter::TextAntialiasing | QPainter::SmoothPixmapTransform);
     painter.scale(scale, scale);
     for (const Shape& shape : drawing.shapes) std::visit(ShapePainter{painter, family}, shape);
 }
@@ -155,8 +166,7 @@ void eraseDate(QByteArray& pdf) {
 
 }  // namespace
 
-std::string figurePng(const Figure& figure) {
-    const Drawing drawing = layoutFigure(figure);
+std::string drawingBitmap(const Drawing& drawing, const Figure& figure, const char* format) {
     ensureApplication();
     QImage image(static_cast<int>(drawing.width) * pixels_per_px, static_cast<int>(drawing.height) * pixels_per_px,
                  QImage::Format_RGB32);
@@ -168,9 +178,13 @@ std::string figurePng(const Figure& figure) {
     for (const auto& [key, value] : figure.metadata) image.setText(fromUtf8(key), fromUtf8(value));
     QBuffer bytes;
     bytes.open(QIODevice::WriteOnly);
-    image.save(&bytes, "PNG");
+    constexpr int jpeg_quality = 88;
+    if (!image.save(&bytes, format, std::string_view(format) == "JPG" ? jpeg_quality : -1))
+        throw deviceError(fmt::format("Qt cannot write {} here", format), "its image plugins are not installed");
     return bytes.data().toStdString();
 }
+
+std::string figurePng(const Figure& figure) { return drawingBitmap(layoutFigure(figure), figure, "PNG"); }
 
 std::string figurePdf(const Figure& figure) {
     const Drawing drawing = layoutFigure(figure);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <span>
@@ -31,6 +32,21 @@ std::string pointList(std::span<const Point> points) {
         last = std::move(pair);
     }
     return list;
+}
+
+// [RFC 4648, sec. 4].
+std::string base64(std::string_view bytes) {
+    constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    text.reserve((bytes.size() + 2) / 3 * 4);
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        const std::size_t taken = std::min<std::size_t>(3, bytes.size() - i);
+        unsigned group = 0;
+        for (std::size_t k = 0; k < 3; ++k)
+            group = group << 8 | (k < taken ? static_cast<unsigned char>(bytes[i + k]) : 0u);
+        for (std::size_t k = 0; k < 4; ++k) text += k <= taken ? letters[group >> (18 - 6 * k) & 63] : '=';
+    }
+    return text;
 }
 
 // Writes one shape.
@@ -79,6 +95,12 @@ struct SvgWriter {
         add(" font-size=\"{}\" text-anchor=\"{}\" fill=\"{}\"{}>{}</text>\n", text.size,
             anchors[static_cast<int>(text.anchor)], text.color, text.bold ? " font-weight=\"bold\"" : "",
             escapeXml(text.text));
+    }
+
+    void operator()(const Picture& picture) {
+        const Rect& rect = picture.rect;
+        add("<image x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" href=\"data:image/png;base64,{}\"/>\n",
+            number(rect.left), number(rect.top), number(rect.width()), number(rect.height()), base64(picture.png));
     }
 };
 

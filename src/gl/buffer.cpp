@@ -41,11 +41,12 @@ void Buffer::upload(std::span<const std::byte> bytes) {
     glNamedBufferSubData(handle_, 0, static_cast<GLsizeiptr>(bytes.size()), bytes.data());
 }
 
-void Buffer::download(std::span<std::byte> bytes) const {
-    assert(bytes.size() <= bytes_);
+void Buffer::download(std::span<std::byte> bytes, std::size_t first_byte) const {
+    assert(first_byte + bytes.size() <= bytes_);
     if (bytes.empty()) return;
     context_.makeCurrent();
-    glGetNamedBufferSubData(handle_, 0, static_cast<GLsizeiptr>(bytes.size()), bytes.data());
+    glGetNamedBufferSubData(handle_, static_cast<GLintptr>(first_byte), static_cast<GLsizeiptr>(bytes.size()),
+                            bytes.data());
     context_.checkpoint();
 }
 

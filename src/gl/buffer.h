@@ -26,16 +26,16 @@ public:
     /// Sets the first bytes.size() bytes, which the buffer must hold.
     void upload(std::span<const std::byte> bytes);
 
-    /// Waits for the device, then copies out the first bytes.size() bytes.
-    void download(std::span<std::byte> bytes) const;
+    /// Waits for the device, then copies out bytes.size() bytes from `first_byte` on.
+    void download(std::span<std::byte> bytes, std::size_t first_byte = 0) const;
 
     template <typename T>
     void upload(std::span<const T> values) {
         upload(std::as_bytes(values));
     }
     template <typename T>
-    void download(std::span<T> values) const {
-        download(std::as_writable_bytes(values));
+    void download(std::span<T> values, std::size_t first_byte = 0) const {
+        download(std::as_writable_bytes(values), first_byte);
     }
 
 private:

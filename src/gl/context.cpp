@@ -114,6 +114,15 @@ void Context::checkpoint() {
     throw deviceError("OpenGL: " + text);
 }
 
+double Context::finish() {
+    makeCurrent();
+    glFinish();
+    GLint64 ns = 0;
+    glGetInteger64v(GL_TIMESTAMP, &ns);
+    checkpoint();
+    return static_cast<double>(ns) * 1e-6;
+}
+
 bool Context::lost() {
     makeCurrent();
     if (!lost_) lost_ = glGetGraphicsResetStatus() != GL_NO_ERROR;

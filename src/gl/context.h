@@ -41,6 +41,9 @@ public:
     /// Throws a device Error when the driver reported an error since the last checkpoint, or the context is lost.
     void checkpoint();
 
+    /// Waits until the device has done everything so far, then reads its clock in ms. Only differences mean something.
+    double finish();
+
     /// The GPU was reset or taken away: everything in this context is gone, a new one must be made.
     bool lost();
 

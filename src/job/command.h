@@ -17,10 +17,14 @@ struct Command {
     std::string_view summary;  ///< one line
     std::string_view example;  ///< a whole command line that works
     std::vector<Param> options;
-    std::string_view positional;  ///< the option that may be given without its name; empty: none
-    bool uses_material = false;   ///< takes --material, --sigma-a ... (scene.material)
-    bool uses_seed = false;       ///< takes --seed
-    std::string_view output;      ///< what -o writes ("figure: .svg, .png, .pdf or .csv"); empty: no -o
+    /// The options that may be given without their names, in that order: "image reference".
+    std::string_view positional;
+    bool uses_material = false;  ///< takes --material, --sigma-a ... (scene.material)
+    bool uses_scene = false;  ///< takes an object, --light, --camera ... and what uses_material does: all of the scene
+    bool uses_seed = false;   ///< takes --seed
+    bool shares_walks = false;     ///< mpirun shares its work among processes
+    bool writes_in_parts = false;  ///< and each of them writes its part of the files
+    std::string_view output;       ///< what -o writes ("figure: .svg, .png, .pdf or .csv"); empty: no -o
     JobResult (*run)(const Job& job, Engine& engine, Observer& observer);
 };
 

@@ -261,7 +261,7 @@ Command referenceHalfSpaceCommand() {
                      .type = ParamType::choice,
                      .value = std::string("analogue"),
                      .choices = {"analogue", "best"},
-                     .doc = "best: profiles with far less noise, except for g > 0.7 and for --grid; a noisier total"},
+                     .doc = "best: profiles and totals with far less noise, except for --grid"},
                     {.name = "white",
                      .type = ParamType::toggle,
                      .value = false,

@@ -11,12 +11,21 @@ Command profileCommand();
 Command invertCommand();
 Command referenceHalfSpaceCommand();
 Command referenceSlabCommand();
+Command referenceSphereCommand();
+Command referenceMeshCommand();
 Command mcmlCommand();
+Command renderCommand();
+Command sweepCommand();
+Command meshCommand();
+Command pointsCommand();
 Command plotPencilCommand();
 Command plotErrorCommand();
 Command plotAlbedoCommand();
+Command compareCommand();
 Command checkCommand();
 Command reportCommand();
+Command benchTransportCommand();
+Command benchRenderCommand();
 Command doctorCommand();
 
 }  // namespace searchlight

@@ -120,7 +120,8 @@ void SavedWalks::read() {
         throw text.error("/format", fmt::format("'{}' cannot be read", name),
                          name.starts_with(format_name) ? "a newer version wrote it" : "a file that --resume wrote");
     const Json there = Json::parse(member(text, "", text.root(), "problem").dump());
-    const Json here = Json::parse(problem_.dump());
+    // Keys in the order of the file's reader: members of lists are compared whole.
+    const Json here = Json::parse(nlohmann::json::parse(problem_.dump()).dump());
     if (const std::string place = difference(here, there, ""); !place.empty())
         throw text.error(place.empty() || !there.contains(Json::json_pointer(place)) ? "/problem" : "/problem" + place,
                          fmt::format("these are walks of another problem: {} differs", place.empty() ? "it" : place),

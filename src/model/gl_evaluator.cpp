@@ -11,6 +11,7 @@
 #include "gl/context.h"
 #include "gl/program.h"
 #include "model/evaluator.h"
+#include "model/gl_program.h"
 #include "model/gl_source.h"
 
 namespace searchlight {
@@ -21,14 +22,6 @@ namespace {
 constexpr std::size_t slice = 16384;
 
 constexpr std::size_t floats_per_query = 18;
-
-// llvmpipe ends all loops of an invocation after 65,535 iterations in sum (LP_MAX_TGSI_LOOP_ITERATIONS) and says
-// nothing. An invocation there is a vector of queries: where they run different loops, the driver counts more than each
-// of them.
-LoopBudget loopBudget(const gl::ContextInfo& device) {
-    const bool is_llvmpipe = device.renderer.find("llvmpipe") != std::string::npos;
-    return is_llvmpipe ? LoopBudget{60'000, true} : LoopBudget{};
-}
 
 float* put(float* target, const Vec3& vector) {
     *target++ = static_cast<float>(vector.x);
@@ -84,29 +77,7 @@ private:
         return {values[3 * i], values[3 * i + 1], values[3 * i + 2]};
     }
 
-    void setUniforms(gl::Program& program) const {
-        program.set("SigmaA", medium_.sigma_a);
-        program.set("SigmaS", medium_.sigma_s);
-        program.set("G", medium_.g);
-        program.set("IOR", static_cast<float>(medium_.eta));
-        program.set("sl_two", 2);
-        for (const Param& param : file_.parameters) setParameter(program, param, valueOf(param, parameters_));
-    }
-
-    static void setParameter(gl::Program& program, const Param& param, const ParamValue& value) {
-        checkValue(param, value);
-        const char* name = param.name.c_str();
-        switch (param.type) {
-            case ParamType::toggle: program.set(name, std::get<bool>(value) ? 1 : 0); break;
-            case ParamType::color: program.set(name, std::get<Rgb>(value)); break;
-            case ParamType::choice: {
-                const auto chosen = std::ranges::find(param.choices, std::get<std::string>(value));
-                program.set(name, static_cast<int>(chosen - param.choices.begin()));
-                break;
-            }
-            default: program.set(name, static_cast<float>(std::get<double>(value)));
-        }
-    }
+    void setUniforms(gl::Program& program) const { setModelUniforms(program, file_, medium_, parameters_); }
 
     void evaluateSlice(std::span<const Query> queries, std::span<Rgb> values) {
         upload_.resize(queries.size() * floats_per_query);
@@ -133,19 +104,9 @@ private:
         if (failed != 0) {
             constexpr int good = 0;
             values_.upload(std::span(&good, 1));
-            throw loopError(failed - 1);
+            throw loopError(file_, budget_, failed);
         }
         return std::span<const float>(download_).subspan(1);
-    }
-
-    Error loopError(int line) const {
-        std::string budget = fmt::format("{:.0e}", static_cast<double>(budget_.iterations));
-        budget.erase(budget.find("+0"), 2);  // 1e6
-        const std::string hint = budget_.driver_cuts ? "per evaluation; llvmpipe stops there, a GPU may run 1e6"
-                                                     : "per evaluation, all loops of the model together";
-        if (line == 0) return inputError(fmt::format("the loops exceeded {} iterations", budget), hint).at(file_.path);
-        return inputError(fmt::format("loop at line {} exceeded {} iterations", line, budget), hint)
-            .at(file_.path, line);
     }
 
     BssrdfFile file_;

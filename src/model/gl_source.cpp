@@ -319,7 +319,7 @@ gl::Source modelShader(const BssrdfFile& file, GlStage stage, const LoopBudget& 
         addInitMain(source, initializer, file.path);
     } else if (stage == GlStage::diffuse_reflectance) {
         source.add(diffuse_main, generated);
-    } else {
+    } else if (stage == GlStage::evaluate) {
         if (file.normals)
             source.add("#define SL_NORMALS Ni = sl_vector(at + 6); No = sl_vector(at + 15);", generated);
         else

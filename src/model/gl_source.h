@@ -8,9 +8,11 @@ namespace searchlight {
 
 /// The programs that evaluate a model.
 enum class GlStage {
-    init,                ///< one invocation: writes State
-    evaluate,            ///< one invocation per query: reads State, writes R_d
-    diffuse_reflectance  ///< one invocation: DiffuseReflectance of the uniform sl_alpha_prime
+    init,                 ///< one invocation: writes State
+    evaluate,             ///< one invocation per query: reads State, writes R_d
+    diffuse_reflectance,  ///< one invocation: DiffuseReflectance of the uniform sl_alpha_prime
+    functions  ///< no main(): Bssrdf(), sl_findCut(), sl_iterations to be set to 0 before each evaluation, and for a
+               ///< model that reads them the globals Ni and No; what follows may use names that start with sl_
 };
 
 /// Loops of a model are not trusted: all of them together may take so many iterations per evaluation.

@@ -28,7 +28,7 @@ class Context;
 struct RenderInput {
     const Scene* scene = nullptr;
     const Object* object = nullptr;
-    const RayScene* rays = nullptr;           ///< null for a cloud
+    const RayScene* rays = nullptr;           ///< of object->mesh
     const PointCloud* points = nullptr;       ///< of irradiance
     const Irradiance* irradiance = nullptr;   ///< at those points
     const VisibleSurface* visible = nullptr;  ///< receivers
@@ -36,6 +36,7 @@ struct RenderInput {
     Evaluator* evaluator = nullptr;  ///< set to the medium
     const Medium* medium = nullptr;
     const Profile* profile = nullptr;  ///< of a radial model; null otherwise
+    int threads = 0;                   ///< 0: all
     struct Versions {
         std::uint64_t points = 0, light = 0, view = 0, material = 0;
     } versions;
@@ -50,6 +51,9 @@ struct TechniqueReport {
     std::string device;
 };
 
+/// The parameters that the scene gives to the model, for another evaluator of it.
+ParamValues modelParameters(const RenderInput& input);
+
 /// Progressive: start, then step until done. Holds its caches from one start to the next.
 class Technique {
 public:
@@ -62,24 +66,30 @@ public:
     virtual bool step(Observer& observer) = 0;
 
     /// Exitance M per sample of input.visible so far, flux per mm^2 that left after scattering, before T21: the picture
-    /// is T21(wo) M / (pi 4 C_phi(1/eta)). For models that read wo this is pi 4 C_phi(1/eta) times the sum of T12
-    /// Q(wo).
+    /// is T21(wo) M / (pi 4 C_phi(1/eta)). For a model that reads wo it is the sum of Q(wo) over the transmitted flux,
+    /// wo being the direction to input.visible->eye.
     virtual std::span<const Rgbf> exitance() const = 0;
 
     virtual TechniqueReport report() const = 0;
 };
 
-/// A row of the table: id and one line, options as Params, and how to make one. `context` is null on a CPU backend.
+/// A row of the table: id and one line, options as Params, and how to make one.
 struct TechniqueEntry {
     std::string_view id;  ///< "hierarchical"
     std::string_view summary;
     std::vector<Param> options;
-    bool gl = false;           ///< needs a context
     bool directional = false;  ///< takes models that are not radial
+    bool gl = false;           ///< has a version on OpenGL, which make() gives for a context; null makes the CPU's
     std::unique_ptr<Technique> (*make)(gl::Context* context);
 };
 
 /// In menu order.
 std::span<const TechniqueEntry> techniques();
+
+/// Throws unknownName.
+const TechniqueEntry& findTechnique(std::string_view id);
+
+/// Whether the model is a function of distance alone, so that its profile says all of it.
+bool isRadial(const Model& model);
 
 }  // namespace searchlight

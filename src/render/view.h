@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
+#include "base/observer.h"
 #include "base/vec.h"
 #include "geometry/object.h"
 #include "geometry/rays.h"
@@ -25,18 +27,50 @@ struct View {
     }
 };
 
-/// The scene's camera around an object of that longest side.
-View makeView(const Camera& camera, double longest_mm, int width, int height);
+/// The camera, with a distance of 0 replaced by the one from which the object fills 70 % of the picture's height, or
+/// 84 % of its width where that needs more.
+Camera framedCamera(const Camera& camera, const Object& object, int width, int height);
+
+/// The scene's camera around the object, framed.
+View makeView(const Camera& camera, const Object& object, int width, int height);
 
 /// The surface samples behind the pixels, listed tile by tile (8 x 8 pixels), so that neighbours in the list are
 /// neighbours in space. A pixel has one sample or, with antialiasing at edges, several.
 struct VisibleSurface {
     int width = 0, height = 0;
-    std::vector<std::uint32_t> pixels;  ///< y * width + x, per sample
-    std::vector<float> coverage;        ///< of its pixel, per sample; a pixel's add up to at most 1
-    std::vector<Vec3f> positions;       ///< mm, on the triangle
-    std::vector<Vec3f> normals;         ///< for shading: interpolated, unit
-    std::vector<Vec3f> geometric_normals;
+    Vec3 eye;                              ///< mm
+    std::vector<std::uint32_t> pixels;     ///< y * width + x, per sample
+    std::vector<float> coverage;           ///< of its pixel, per sample; a pixel's add up to at most 1
+    std::vector<Vec3f> positions;          ///< mm, on the triangle
+    std::vector<Vec3f> normals;            ///< for shading: interpolated, unit, on the geometric normal's side
+    std::vector<Vec3f> geometric_normals;  ///< unit, towards the eye
 };
+
+struct TraceOptions {
+    int edge_samples = 8;  ///< rays through a pixel that an edge crosses; at most 1: none are added
+    int threads = 0;       ///< 0: all
+};
+
+/// One ray through the centre of each pixel, and `edge_samples` through those where coverage, depth or normal jump to a
+/// neighbour: samples of one patch are merged there. `rays` hold object.mesh. Throws interruptedError() when cancelled.
+VisibleSurface traceVisible(const View& view, const Object& object, const RayScene& rays, const TraceOptions& options,
+                            Observer& observer);
+
+/// Where in a pixel, from its top left corner, the rays through an edge go: `count` of them.
+std::vector<std::pair<double, double>> edgePattern(int count);
+
+/// What is hit by rays of a picture, by whatever means it was found.
+class PictureHits {
+public:
+    virtual ~PictureHits() = default;
+
+    /// The first hit of `ray`, which goes through pixel (x, y): its centre where `sample` < 0, else that point of
+    /// edgePattern(). A miss has t = infinity. Called from many threads.
+    virtual RayHit hit(int x, int y, int sample, const Ray& ray) const = 0;
+};
+
+/// traceVisible() with these hits.
+VisibleSurface visibleSurface(const View& view, const Object& object, const PictureHits& hits,
+                              const TraceOptions& options, Observer& observer);
 
 }  // namespace searchlight

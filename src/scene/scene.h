@@ -26,10 +26,10 @@ struct Camera {
 };
 
 struct DirectionalLight {
-    Vec3 direction{1, 1, 1};  ///< towards the light
-    Rgb irradiance{1, 1, 1};  ///< on a surface that faces the light
-    double angle_deg = 0;     ///< diameter of the disc that it is (the sun: 0.53); 0: parallel light
-    std::string filter;       ///< a picture the light passes, across the object's bounding sphere; empty: none
+    Vec3 direction{-1, 1, 1};  ///< towards the light
+    Rgb irradiance{1, 1, 1};   ///< on a surface that faces the light
+    double angle_deg = 0;      ///< diameter of the disc that it is (the sun: 0.53); 0: parallel light
+    std::string filter;        ///< a picture the light passes, across the object's bounding sphere; empty: none
 };
 
 struct EnvironmentLight {

@@ -149,15 +149,13 @@ TEST_F(Program, ReportIsSelfContained) {
     EXPECT_THAT(readFile(folder() / "out/errors.csv"), testing::HasSubstr("better_dipole,R,"));
 }
 
-TEST_F(Program, AnInterruptedWalkExitsWith130AndLeavesNoFile) {
-    // Through a shell of its own: timeout sends what Ctrl+C sends.
-    const std::string command = "cd '" + folder().string() +
-                                "' && timeout -s INT 0.5 '" SEARCHLIGHT_PROGRAM
-                                "' reference halfspace --material marble --walks 1e12 -o ref.json >/dev/null 2>.err; "
-                                "[ $? -eq 124 ] && cat .err | grep -q interrupted; echo $? >code; rm .err";
-    ASSERT_EQ(std::system(command.c_str()), 0);
-    EXPECT_EQ(readFile(folder() / "code"), "0\n");
-    EXPECT_EQ(fileCount(), 1u);
+TEST_F(Program, AnInterruptedPlotExitsWith130AndLeavesNoFile) {
+    // timeout sends what Ctrl+C sends.
+    const Output output =
+        run("plot pencil --models dipole --reference-walks 1e12 -o pencil.svg", "timeout --preserve-status -s INT 1");
+    EXPECT_EQ(output.exit_code, 130);
+    EXPECT_THAT(output.err, testing::HasSubstr("interrupted"));
+    EXPECT_EQ(fileCount(), 0u);
 }
 
 }  // namespace

@@ -12,7 +12,8 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-const std::string half_space = "reference halfspace --sigma-a 0.1 --sigma-s 0.9 --eta 1.3 --edges 0,1,3 --json --seed 5 ";
+const std::string half_space =
+    "reference halfspace --sigma-a 0.1 --sigma-s 0.9 --eta 1.3 --edges 0,1,3 --json --seed 5 ";
 
 json numbers(const std::string& text) {
     const json document = json::parse(text);
@@ -27,6 +28,20 @@ TEST_F(Program, AResumedReferenceHasTheNumbersOfOneThatNeverStopped) {
     const Output second = run(half_space + "--walks 8388608 --resume walks.json");
     ASSERT_EQ(second.exit_code, 0) << second.err;
     EXPECT_EQ(numbers(second.out), numbers(straight.out));
+}
+
+// Its problem holds lists of objects: the lights.
+TEST_F(Program, AResumedSphereHasTheNumbersOfOneThatNeverStopped) {
+    const std::string sphere =
+        "reference sphere --material skin1 --radius 2 --light dir:1,1,1 --size 16x16 --json --walks 5e6 ";
+    const json straight = json::parse(run(sphere).out);
+    const json first = json::parse(run(sphere + "--until-error 5% --resume walks.json").out);
+    EXPECT_LT(first["walks"][0], straight["walks"][0]);
+    const Output second = run(sphere + "--resume walks.json");
+    ASSERT_EQ(second.exit_code, 0) << second.err;
+    const json resumed = json::parse(second.out);
+    for (const char* key : {"incident", "left", "reflectance", "absorbed", "walks", "collisions", "surface_tests"})
+        EXPECT_EQ(resumed[key], straight[key]) << key;
 }
 
 TEST_F(Program, CtrlCLeavesAValidFileThatGoesOn) {
@@ -46,9 +61,9 @@ TEST_F(Program, CtrlCLeavesAValidFileThatGoesOn) {
 TEST_F(Program, WalksOfAnotherProblemAreNotResumed) {
     ASSERT_EQ(run(half_space + "--walks 1000 --resume walks.json").exit_code, 0);
     const std::string before = readFile(folder() / "walks.json");
-    const Output other = run(half_space + "--walks 1000 --seed 6 --resume walks.json");
+    const Output other = run(half_space + "--walks 1000 --angle-deg 10 --resume walks.json");
     EXPECT_EQ(other.exit_code, 3);
-    EXPECT_THAT(other.err, HasSubstr("/problem/seed: these are walks of another problem: /seed differs"));
+    EXPECT_THAT(other.err, HasSubstr("/problem/angle_deg: these are walks of another problem: /angle_deg differs"));
     EXPECT_EQ(readFile(folder() / "walks.json"), before);
 }
 

@@ -81,8 +81,9 @@ TEST_F(Program, ShardsMakeWhatOneRunMakes) {
     EXPECT_TRUE(sameCells(folder() / "whole", folder() / "parts", 4));
     // The last of them found all cells and drew the sheet.
     for (const fs::directory_entry& entry : fs::directory_iterator(folder() / "whole"))
-        if (entry.path().stem() == "sheet")
+        if (entry.path().stem() == "sheet") {
             EXPECT_EQ(readFile(entry.path()), readFile(folder() / "parts" / entry.path().filename()));
+        }
     fs::remove(folder() / "parts/summary.csv");
     ASSERT_EQ(run("sweep quick.json -o parts --merge").exit_code, 0);
     EXPECT_TRUE(fs::exists(folder() / "parts/summary.csv"));

@@ -181,6 +181,15 @@ TEST(Buffer, StartsAsZeros) {
     EXPECT_THAT(values, testing::Each(0));
 }
 
+TEST(Buffer, DownloadsAPart) {
+    Context context;
+    Buffer buffer(context, 16);
+    buffer.upload<int>(std::array{1, 2, 3, 4});
+    std::array<int, 2> part{};
+    buffer.download<int>(part, 4);
+    EXPECT_THAT(part, testing::ElementsAre(2, 3));
+}
+
 TEST(Buffer, BeyondTheDeviceIsADeviceError) {
     Context context;
     try {

@@ -1,6 +1,7 @@
 #include "light/irradiance_gl.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -121,7 +122,8 @@ TEST(IrradianceGl, DiscHasPenumbras) {
 
 // A picture of 64 x 32 that is bright above, in flat Radiance RGBE.
 std::string skyFile() {
-    const std::string path = (std::filesystem::temp_directory_path() / "searchlight_irradiance_gl_sky.hdr").string();
+    const std::string path =
+        (std::filesystem::temp_directory_path() / ("searchlight_sky_" + std::to_string(getpid()) + ".hdr")).string();
     std::string text = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 32 +X 64\n";
     for (int y = 0; y < 32; ++y)
         for (int x = 0; x < 64; ++x)

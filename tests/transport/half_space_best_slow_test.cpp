@@ -39,7 +39,8 @@ TEST(HalfSpaceBestLong, StandardErrorsAreTheSpreadOverSeeds) {
     const std::vector<double> edges = {0, 0.2, 0.5, 1, 2, 4};
     for (const HalfSpaceProblem& problem :
          {HalfSpaceProblem{.sigma_a = 0.1, .sigma_s = 0.9, .eta = 1.3, .angle_deg = 45},
-          HalfSpaceProblem{.sigma_a = 0.01, .sigma_s = 0.99, .g = 0.3, .eta = 1.5}}) {
+          HalfSpaceProblem{.sigma_a = 0.01, .sigma_s = 0.99, .g = 0.3, .eta = 1.5},
+          HalfSpaceProblem{.sigma_a = 0.02, .sigma_s = 5, .g = 0.8, .eta = 1.4}}) {
         Spread total, x, r2, bins[5];
         for (std::uint64_t seed = 0; seed < 1000; ++seed) {
             const HalfSpaceTally all = walk(problem, 8192, seed, edges, best).all;

@@ -18,8 +18,6 @@ namespace searchlight {
 namespace {
 
 constexpr int kFinestGrid = 4096;
-// Beyond, expected escapes are few and heavy, and the analogue walk is the better one (docs/benchmarks.md).
-constexpr double kMostForward = 0.7;
 
 [[noreturn]] void reject(const char* what, double value, const char* valid) {
     throw inputError(std::string(what) + " is " + numberText(value), std::string(valid));
@@ -194,7 +192,7 @@ HalfSpaceResult walkHalfSpace(const HalfSpaceProblem& problem, const HalfSpaceOp
     result.specular = beam.specular;
     result.threads = options.threads > 0 ? options.threads : hardwareThreads();
     result.instruction_set = halfSpaceInstructionSet();
-    result.estimator = options.grid > 0 || problem.g > kMostForward ? Estimator::analogue : options.estimator;
+    result.estimator = options.grid > 0 ? Estimator::analogue : options.estimator;
     if (problem.sigma_s == 0 || beam.specular == 1) {
         result.all = result.single = result.multiple = emptyTally(options);
         return result;

@@ -33,7 +33,7 @@ struct HalfSpaceOptions {
     int grid = 0;                  ///< cells per side of the square tally R(x, y); 0: none
     double grid_extent_mm = 0;     ///< the square is [-extent, extent]^2
     int threads = 0;               ///< 0: all
-    Estimator estimator = Estimator::analogue;  ///< a grid, and g > 0.7, are always walked by the analogue
+    Estimator estimator = Estimator::analogue;  ///< a grid is always walked by the analogue
     WalkControl control;  ///< until_error: of the total, and of the profile: the mean over its bins, weighted by flux
 };
 

@@ -14,10 +14,8 @@
 #include "transport/half_space/half_space_best.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <memory>
 
 #include "transport/walk/fresnel.h"
@@ -102,7 +100,7 @@ HWY_INLINE FloatV fineUniform(IntV bits) {
     return hn::MulAdd(hn::ConvertTo(d, k), hn::Set(d, 0x1p-31f), hn::Set(d, 0x1p-32f));
 }
 
-template <bool kFresnel, bool kIsotropic>
+template <bool kFresnel, bool kIsotropic, bool kForesees>
 class BestWalker {
 public:
     BestWalker(const BestPlan& plan, SplitMix64 seeds, std::uint64_t walks)
@@ -177,7 +175,7 @@ private:
         const FloatV luck = fineUniform(pack.random.next());
         const FloatV s = signedUniform(pack.random.next());
         const Azimuth phi = azimuth(pack.random.next());
-        foresee(pack, at, phi, luck);
+        if constexpr (kForesees) foresee(pack, at, phi, luck);
         if constexpr (kIsotropic)
             pack.direction = isotropicDirection(s, phi);
         else
@@ -194,6 +192,11 @@ private:
         if constexpr (!kIsotropic) pack.direction.w = hn::IfThenElse(crosses, hn::Neg(onward), onward);
         FloatV reflected = zero;
         if constexpr (kFresnel) reflected = hn::Mul(pack.weight, reflectance(hn::Neg(onward)));
+        if constexpr (!kForesees) {
+            const FloatV back = hn::Div(z, hn::Neg(onward));  // from where the surface was crossed
+            deposit<0>(pack, at, hn::Mul(back, pack.direction.u), hn::Mul(back, pack.direction.v),
+                       hn::IfThenElseZero(crosses, hn::Sub(pack.weight, reflected)), one, luck);
+        }
         pack.weight = hn::IfThenElse(crosses, reflected, pack.weight);
         pack.order = hn::Add(pack.order, hn::Set(di, 1));
         // The first two collisions are common to all walks: finish() counts what they absorb.
@@ -435,16 +438,18 @@ private:
     Deposits deposits_[2];
 };
 
-template <bool kFresnel, bool kIsotropic>
+template <bool kFresnel, bool kIsotropic, bool kForesees>
 std::uint64_t bestAs(const BestPlan& plan, SplitMix64 seeds, std::uint64_t walks, ExitTally& tally) {
-    return std::make_unique<BestWalker<kFresnel, kIsotropic>>(plan, seeds, walks)->run(tally);
+    return std::make_unique<BestWalker<kFresnel, kIsotropic, kForesees>>(plan, seeds, walks)->run(tally);
 }
 
 std::uint64_t bestChunk(const BestPlan& plan, SplitMix64 seeds, std::uint64_t walks, ExitTally& tally) {
     const bool fresnel = plan.walk.eta != 1, isotropic = plan.walk.g == 0;
-    return (fresnel     ? isotropic ? bestAs<true, true> : bestAs<true, false>
-                : isotropic ? bestAs<false, true>
-                        : bestAs<false, false>)(plan, seeds, walks, tally);
+    if (!plan.foresees)
+        return (fresnel ? bestAs<true, false, false> : bestAs<false, false, false>)(plan, seeds, walks, tally);
+    return (fresnel     ? isotropic ? bestAs<true, true, true> : bestAs<true, false, true>
+                : isotropic ? bestAs<false, true, true>
+                        : bestAs<false, false, true>)(plan, seeds, walks, tally);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -456,64 +461,8 @@ namespace searchlight {
 
 HWY_EXPORT(bestChunk);
 
-namespace {
-
-LaneBins laneBins(std::span<const double> edges) {
-    LaneBins bins;
-    for (const double edge : edges) bins.next_edge.push_back(static_cast<float>(edge * edge));
-    bins.next_edge.push_back(std::numeric_limits<float>::infinity());
-    const std::size_t first = bins.next_edge[0] > 0 ? 0 : 1;
-    const std::span<const float> squares(bins.next_edge.data() + first, edges.size() - first);
-    // As in RadialBins: the upper bits of a float are a logarithmic index, refined until no cell holds two edges or the
-    // table grows out of the first cache.
-    constexpr std::size_t most_cells = 4096;
-    const auto cell = [](float r2, int shift) { return std::bit_cast<std::int32_t>(r2) >> shift; };
-    std::size_t cells = 0;
-    for (int bits = 3; bits <= 14; ++bits) {
-        const int shift = 23 - bits;
-        const auto needed = static_cast<std::size_t>(cell(squares.back(), shift) - cell(squares.front(), shift)) + 1;
-        if (bins.steps == 1 || (bits > 3 && needed > most_cells)) break;
-        bins.shift = shift;
-        bins.first_cell = cell(squares.front(), shift);
-        cells = needed;
-        bins.steps = 0;
-        for (std::size_t i = 0, run = 0; i < squares.size(); ++i) {
-            run = i > 0 && cell(squares[i], shift) == cell(squares[i - 1], shift) ? run + 1 : 1;
-            bins.steps = std::max(bins.steps, static_cast<std::int32_t>(run));
-        }
-    }
-    std::int32_t slot = static_cast<std::int32_t>(first);
-    const auto last = static_cast<std::int32_t>(edges.size());
-    for (std::size_t c = 0; c < cells; ++c) {
-        while (slot < last && cell(bins.next_edge[static_cast<std::size_t>(slot)], bins.shift) - bins.first_cell <
-                                  static_cast<std::int32_t>(c))
-            ++slot;
-        bins.first_slot.push_back(slot);
-    }
-    return bins;
-}
-
-}  // namespace
-
-BestPlan::BestPlan(const HalfSpaceWalk& half_space, std::span<const double> edges)
-    : walk(half_space), importance(makeImportanceTable(half_space, edges)), bins(laneBins(edges)) {
-    if (walk.sin_beam == 0) single = singleScattering(walk, edges);
-}
-
-double BestPlan::reach(std::uint64_t walks) const {
-    return std::log(std::max(1.0, static_cast<double>(walks) / 100)) / std::max(importance.decay, 1e-30);
-}
-
-std::uint64_t walkBestChunk(const BestPlan& plan, std::uint64_t seed, std::uint64_t chunk, std::uint64_t walks,
-                            ExitTally& tally) {
-    if (plan.single) {
-        ExitTally::Sums& sums = tally.sums(ExitTally::single);
-        const double n = static_cast<double>(walks);
-        sums.flux[0] = n * plan.single->total;
-        for (std::size_t i = 0; i < plan.single->flux.size(); ++i) sums.flux[1 + i] = n * plan.single->flux[i];
-        sums.r2 = n * plan.single->r2;
-    }
-    return HWY_DYNAMIC_DISPATCH(bestChunk)(plan, streamOf(seed, chunk), walks, tally);
+std::uint64_t walkForeseeingChunk(const BestPlan& plan, SplitMix64 seeds, std::uint64_t walks, ExitTally& tally) {
+    return HWY_DYNAMIC_DISPATCH(bestChunk)(plan, seeds, walks, tally);
 }
 
 }  // namespace searchlight

@@ -8,9 +8,11 @@
 #include <span>
 #include <vector>
 
+#include "transport/half_space/guided_walk.h"
 #include "transport/half_space/half_space_walk.h"
 #include "transport/half_space/importance.h"
 #include "transport/half_space/single_scattering.h"
+#include "transport/walk/random.h"
 #include "transport/walk/tally.h"
 
 namespace searchlight {
@@ -33,10 +35,19 @@ struct BestPlan {
     double reach(std::uint64_t walks) const;
 
     HalfSpaceWalk walk;
+    bool foresees = true;  ///< tallies expected escapes; otherwise what crosses the surface
     ImportanceTable importance;
     LaneBins bins;
+    GuidedWalk guided;
+    TallyLayout layout;
+    double guided_share = 0;                 ///< guided walks for each walk; they tally the total and its moments
+    double guided_part = 0;                  ///< what counts of their bins; 1: there are no other walks
+    bool counts_beyond = false;              ///< what they leave to the bins is beyond them
     std::optional<SingleScattering> single;  ///< at normal incidence; otherwise walks tally order 1, too
 };
+
+/// The walks with expected escape and importance alone, of a plan that foresees or has no guided walks.
+std::uint64_t walkForeseeingChunk(const BestPlan& plan, SplitMix64 seeds, std::uint64_t walks, ExitTally& tally);
 
 /// As walkHalfSpaceChunk; the tally must have the plan's edges and no grid.
 std::uint64_t walkBestChunk(const BestPlan& plan, std::uint64_t seed, std::uint64_t chunk, std::uint64_t walks,

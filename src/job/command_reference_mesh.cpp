@@ -1,0 +1,339 @@
+// reference sphere, reference mesh: the exitance that light in a closed body leaves on its surface, by Monte Carlo.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <optional>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "base/version.h"
+#include "geometry/object.h"
+#include "io/image_file.h"
+#include "job/command_table.h"
+#include "job/json.h"
+#include "job/picture_options.h"
+#include "job/saved_walks.h"
+#include "job/shared_options.h"
+#include "light/light_sampler.h"
+#include "render/view.h"
+#include "transport/mesh/cell_picture.h"
+#include "transport/mesh/reference_body.h"
+
+namespace searchlight {
+
+namespace {
+
+constexpr int kPixelRays = 3;      // per side of a pixel: edges are smooth, and cells blend
+constexpr double kCellPixels = 4;  // area of a cell in pixels, unless it is given
+
+// What stands behind a ray: a cell and the cosine between ray and normal.
+struct Seen {
+    std::uint32_t cell = 0;
+    double cosine = 0;
+};
+using See = std::function<std::optional<Seen>(Vec3 eye, Vec3 direction)>;
+
+See seeing(const MeshBody& body) {
+    return [&body](Vec3 eye, Vec3 direction) -> std::optional<Seen> {
+        const auto hit = body.rays().intersect({toFloat(eye), toFloat(direction)});
+        if (!hit) return {};
+        return Seen{body.cells().at(hit->triangle, hit->u, hit->v), -dot(direction, toDouble(hit->normal))};
+    };
+}
+
+See seeing(const Ball& ball) {
+    return [&ball](Vec3 eye, Vec3 direction) -> std::optional<Seen> {
+        const double b = dot(eye, direction), c = dot(eye, eye) - ball.radius() * ball.radius();
+        if (b * b <= c || b > 0) return {};
+        const Vec3 normal = normalize(eye + (-b - std::sqrt(b * b - c)) * direction);
+        return Seen{ball.cells().at(normal), -dot(direction, normal)};
+    };
+}
+
+CellView viewOf(const View& camera, const See& see, double eta, int threads) {
+    std::vector<std::vector<CellSample>> rows(static_cast<std::size_t>(camera.height));
+    parallelFor(rows.size(), threads, [&](std::size_t y) {
+        for (int x = 0; x < camera.width; ++x)
+            for (int i = 0; i < kPixelRays * kPixelRays; ++i) {
+                const double dx = (i % kPixelRays + 0.5) / kPixelRays, dy = (i / kPixelRays + 0.5) / kPixelRays;
+                const Vec3 direction = normalize(camera.direction(x + dx, static_cast<double>(y) + dy));
+                const std::optional<Seen> seen = see(camera.eye, direction);
+                if (!seen || !(seen->cosine > 0)) continue;
+                rows[y].push_back({static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(camera.width) +
+                                       static_cast<std::uint32_t>(x),
+                                   seen->cell, 1.0f / (kPixelRays * kPixelRays),
+                                   static_cast<float>(exitFactor(eta, seen->cosine))});
+            }
+    });
+    CellView view{camera.width, camera.height, {}};
+    for (const auto& row : rows) view.samples.insert(view.samples.end(), row.begin(), row.end());
+    return view;
+}
+
+struct Setup {
+    Subject subject;
+    Object object;
+    View view;
+    LightSampler lights;
+    BodyOptions walk;
+    double cell_area_mm2 = 0;
+};
+
+Setup setupOf(const Job& job, Engine& engine, const Options& options, const Scene& scene) {
+    const PictureSize size = parsePictureSize(options.text("size"));
+    Object object = placeObject(scene);
+    LightSampler lights(scene, object);
+    if (lights.dark()) throw usageError("a reference needs light", "such as --light dir:1,1,1");
+    const View view = makeView(scene.camera, object, size.width, size.height);
+    const double pixel = 2 * view.tan_half / view.height * length(view.eye);
+    const double area = options.number("cell_area");
+    return {comparableSubjectOf(job, engine),
+            std::move(object),
+            view,
+            std::move(lights),
+            {.walks = static_cast<std::uint64_t>(options.number("walks")),
+             .seed = job.seed,
+             .threads = static_cast<int>(options.number("threads"))},
+            area > 0 ? area : kCellPixels * pixel * pixel};
+}
+
+using Channels = std::array<std::optional<BodyResult>, 3>;
+
+// Channels that an interruption leaves without walks are absent.
+template <class Body>
+Channels walkChannels(const Body& body, const Setup& setup, SavedWalks& saved, Observer& observer) {
+    Channels channels;
+    bool any = false, interrupted = false;
+    for (int c = 0; c < Rgb::channels; ++c) {
+        if (!setup.subject.medium.scatters(c)) continue;
+        any = true;
+        if (interrupted) continue;
+        BodyOptions options = setup.walk;
+        options.control = saved.control(static_cast<std::size_t>(c));
+        BodyResult result = walkBody(body, setup.subject.medium, c, &setup.lights, options, observer);
+        interrupted = result.interrupted;
+        if (result.candidates > 0) channels[static_cast<std::size_t>(c)] = std::move(result);
+    }
+    if (!any) throw inputError(fmt::format("{} does not scatter in any channel", setup.subject.name));
+    return channels;
+}
+
+// One value per channel; null where nothing scatters.
+template <class Value>
+Json perChannel(const Channels& channels, const Value& value) {
+    Json list = Json::array();
+    for (const auto& channel : channels) list.push_back(channel ? Json(value(*channel)) : Json());
+    return list;
+}
+
+Json estimates(const Channels& channels, Estimate BodyResult::*member) {
+    return {{"mean", perChannel(channels, [&](const BodyResult& r) { return (r.*member).mean; })},
+            {"stderr", perChannel(channels, [&](const BodyResult& r) { return (r.*member).standard_error; })}};
+}
+
+void addTotals(Json& document, const Channels& channels) {
+    document["incident"] = estimates(channels, &BodyResult::incident);
+    document["entered"] = estimates(channels, &BodyResult::entered);
+    document["left"] = estimates(channels, &BodyResult::left);
+    document["reflectance"] = estimates(channels, &BodyResult::reflectance);
+    document["absorbed"] = estimates(channels, &BodyResult::absorbed);
+    document["collisions_per_entry"] = estimates(channels, &BodyResult::collisions_per_entry);
+    const auto list = [&](const char* name, auto BodyResult::*member) {
+        document[name] = perChannel(channels, [&](const BodyResult& r) { return r.*member; });
+    };
+    list("walks", &BodyResult::arrivals);
+    list("entries", &BodyResult::entries);
+    list("collisions", &BodyResult::collisions);
+    list("surface_tests", &BodyResult::rays);
+    list("taken_back", &BodyResult::taken_back);
+    list("lost", &BodyResult::lost);
+    list("largest_weight", &BodyResult::largest_weight);
+    list("seconds", &BodyResult::seconds);
+}
+
+CellValues valuesOf(const Channels& channels, std::vector<double> BodyResult::*member) {
+    CellValues values;
+    for (std::size_t c = 0; c < channels.size(); ++c)
+        if (channels[c]) values[c] = *channels[c].*member;
+    return values;
+}
+
+std::string textOf(const Setup& setup, const Channels& channels) {
+    std::string text =
+        fmt::format("{:<4} {:>22}  {:>22}  {:>10}  {:>10}\n", "", "reflectance", "absorbed", "walks", "collisions");
+    double collisions = 0, seconds = 0;
+    int threads = 1;
+    std::uint64_t taken_back = 0, lost = 0;
+    for (int c = 0; c < Rgb::channels; ++c) {
+        const auto& r = channels[static_cast<std::size_t>(c)];
+        if (!r) {
+            text += fmt::format(
+                "{:<4} {}\n", "RGB"[c],
+                setup.subject.medium.scatters(c) ? "not reached" : "not applicable: this channel does not scatter");
+            continue;
+        }
+        const auto estimate = [](const Estimate& e) {
+            return fmt::format("{:.6f} +- {:.6f}", e.mean, e.standard_error);
+        };
+        text +=
+            fmt::format("{:<4} {:>22}  {:>22}  {:>10.4g}  {:>10.4g}\n", "RGB"[c], estimate(r->reflectance),
+                        estimate(r->absorbed), static_cast<double>(r->arrivals), static_cast<double>(r->collisions));
+        collisions += static_cast<double>(r->collisions);
+        seconds += r->seconds;
+        threads = r->threads;
+        taken_back += r->taken_back;
+        lost += r->lost;
+    }
+    text += fmt::format("{:.3g} collisions/s on {} threads, {:.3g} s", collisions / seconds, threads, seconds);
+    if (taken_back > 0) text += fmt::format("; {} walks taken back inside", taken_back);
+    if (lost > 0) text += fmt::format("; {} walks lost by rounding", lost);
+    text += "\n";
+    for (const std::string& note : setup.subject.notes) text += note + "\n";
+    return text;
+}
+
+template <class Body>
+JobResult finish(const Job& job, const Setup& setup, const Body& body, std::string_view geometry, Observer& observer) {
+    Json problem{{"scene", Json::parse(jobJson(job)).at("scene")},
+                 {"material", subjectJson(setup.subject)},
+                 {"cells", body.cellCount()},
+                 {"area_mm2", body.area()},
+                 {"volume_mm3", body.volume()}};
+    SavedWalks saved(Options(job), job, std::move(problem), Rgb::channels);
+    const Channels channels = walkChannels(body, setup, saved, observer);
+    saved.save();
+    const bool interrupted = std::ranges::any_of(channels, [](const auto& c) { return c && c->interrupted; });
+    if (std::ranges::none_of(channels, [](const auto& c) { return c.has_value(); })) throw interruptedError();
+    Json document = documentJson("searchlight-reference/1", job);
+    document["per"] = "incident";
+    document["geometry"] = geometry;
+    document["estimator"] = "exitance, analogue";
+    document["material"] = subjectJson(setup.subject);
+    document["volume_mm3"] = body.volume();
+    document["area_mm2"] = body.area();
+    document["cells"] = body.cellCount();
+    if (interrupted) document["interrupted"] = true;
+    addTotals(document, channels);
+
+    if (!job.output.empty()) {
+        const CellView view = viewOf(setup.view, seeing(body), setup.subject.medium.eta, setup.walk.threads);
+        const CellValues exitance = valuesOf(channels, &BodyResult::exitance);
+        ImageFile file;
+        file.image = pictureOfRadiance(view, exitance);
+        file.layers = {{"stderr", pictureOfError(view, valuesOf(channels, &BodyResult::standard_error))},
+                       {"exitance", pictureOfExitance(view, exitance)},
+                       {"cell", pictureOfCells(view)}};
+        file.metadata = {{"version", std::string(version())},
+                         {"job", jobJson(job)},
+                         {"seed", fmt::format("{}", job.seed)},
+                         {"material", setup.subject.id},
+                         {"technique", "exitance reference"},
+                         {"quantity",
+                          "diffuse exit: T21 M / (pi 4 C_phi(1/eta)), "
+                          "M a mean over surface cells"},
+                         {"totals", document.dump()}};
+        writeImage(job.output, file);
+    }
+    JobResult result;
+    result.json = document.dump(1);
+    result.text = fmt::format("{}, {} in {}, {} cells, per unit incident flux\n", geometry, setup.object.name,
+                              setup.subject.name, body.cellCount()) +
+                  textOf(setup, channels);
+    result.interrupted = interrupted;
+    if (interrupted) result.text += "interrupted\n";
+    return result;
+}
+
+JobResult runReferenceSphere(const Job& job, Engine& engine, Observer& observer) {
+    const Options options(job);
+    checkPictureEnding(job.output);
+    Scene scene = job.scene;
+    scene.object = "sphere";
+    scene.scale = 2 * options.number("radius");
+    const Setup setup = setupOf(job, engine, options, scene);
+    return finish(job, setup, Ball(options.number("radius"), setup.cell_area_mm2), "sphere", observer);
+}
+
+JobResult runReferenceMesh(const Job& job, Engine& engine, Observer& observer) {
+    const Options options(job);
+    checkPictureEnding(job.output);
+    const Setup setup = setupOf(job, engine, options, job.scene);
+    const Rgb sigma_t = setup.subject.medium.sigmaT();
+    const MeshBody body(setup.object.mesh, {.cell_area_mm2 = setup.cell_area_mm2,
+                                            .shortest_mfp = 1 / std::max({sigma_t.r, sigma_t.g, sigma_t.b}),
+                                            .regions = !options.toggle("plain"),
+                                            .threads = setup.walk.threads});
+    return finish(job, setup, body, "mesh", observer);
+}
+
+std::vector<Param> sharedOptions() {
+    return {option::walks(1e6),
+            {.name = "size",
+             .type = ParamType::text,
+             .value = std::string("512x512"),
+             .doc = "of the picture: WIDTHxHEIGHT in pixels"},
+            {.name = "cell_area",
+             .unit = "mm^2",
+             .min = 0,
+             .max = option::unlimited,
+             .value = 0.0,
+             .doc = "of the surface cells that exitance is averaged over; 0: of "
+                    "four pixels"},
+            option::threads(),
+            option::untilError("the reflectance of a channel"),
+            option::resume()};
+}
+
+constexpr std::string_view kOutput =
+    "picture of the diffuse exit: .exr with "
+    "standard error and exitance as layers, "
+    ".png, .hdr, .pfm";
+
+}  // namespace
+
+Command referenceSphereCommand() {
+    std::vector<Param> options = sharedOptions();
+    options.insert(options.begin(), {.name = "radius",
+                                     .unit = "mm",
+                                     .min = 0,
+                                     .max = option::unlimited,
+                                     .value = 10.0,
+                                     .doc = "of the sphere",
+                                     .exclusive = true});
+    return {.name = "reference sphere",
+            .summary = "Walk light through a sphere by unbiased Monte Carlo",
+            .example =
+                "searchlight reference sphere --material marble --radius "
+                "10 --walks 1e6 -o sphere.exr",
+            .options = options,
+            .uses_scene = true,
+            .uses_seed = true,
+            .shares_walks = true,
+            .output = kOutput,
+            .run = runReferenceSphere};
+}
+
+Command referenceMeshCommand() {
+    std::vector<Param> options = sharedOptions();
+    options.push_back({.name = "plain",
+                       .type = ParamType::toggle,
+                       .value = false,
+                       .doc = "a ray for every flight, without safe regions: "
+                              "slow, to check with"});
+    return {.name = "reference mesh",
+            .summary = "Walk light through a closed mesh by unbiased Monte Carlo",
+            .example =
+                "searchlight reference mesh statue --scale 50 --material "
+                "marble --walks 1e6 -o statue.exr",
+            .options = options,
+            .uses_scene = true,
+            .uses_seed = true,
+            .shares_walks = true,
+            .output = kOutput,
+            .run = runReferenceMesh};
+}
+
+}  // namespace searchlight

@@ -1,0 +1,236 @@
+#include "render/model_sum_gl.h"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <numeric>
+
+#include "base/embedded.h"
+#include "gl/context.h"
+#include "render/radial_table_gl.h"
+
+namespace searchlight {
+
+namespace {
+
+using Texel = std::array<float, 4>;
+
+constexpr std::size_t points_per_leaf = 8;
+// Entries of a list in one dispatch. Where the driver counts iterations, those of the model's loops count, too.
+constexpr unsigned list_part = 4096, counted_list_part = 64;
+constexpr int leaves_per_part = 32;  // of one invocation of the direct sum
+
+Texel texel(Vec3f v, double w = 0) { return {v.x, v.y, v.z, static_cast<float>(w)}; }
+
+gl::Source evaluateSource(const BssrdfFile& file, const LoopBudget& budget) {
+    constexpr std::string_view path = "src/render/hierarchical_gl.model.comp.glsl";
+    gl::Source source = modelShader(file, GlStage::functions, budget);
+    source.add(file.normals ? "#define SL_SET_NORMALS(ni, no) Ni = ni; No = no;" : "#define SL_SET_NORMALS(ni, no)",
+               "searchlight");
+    source.add(embeddedText(path).value(), path);
+    return source;
+}
+
+}  // namespace
+
+ModelSumGl::ModelSumGl(gl::Context& context)
+    : SumGl(context),
+      lists_pass_(context, hierarchicalPassGl("src/render/hierarchical_gl.lists.comp.glsl")),
+      radial_(context),
+      spheres_(context),
+      leaf_begins_(context),
+      counters_(context, 3 * sizeof(unsigned)),
+      lists_(context),
+      state_(context, 4),
+      values_(context),
+      direct_values_(context),
+      chosen_(context),
+      budget_(loopBudget(context.info())),
+      receiver_data_(context) {}
+
+void ModelSumGl::setModel(const Model& model, const Medium& medium, const ParamValues& parameters,
+                          const Profile& mean) {
+    const bool known = evaluate_ && file_.path == model.file.path && file_.shader.text == model.file.shader.text &&
+                       file_.initializer.text == model.file.initializer.text;
+    if (!known) {
+        evaluate_.reset();
+        init_.reset();
+        file_ = model.file;
+        if (file_.initializer.present()) init_.emplace(context_, modelShader(file_, GlStage::init, budget_));
+        evaluate_.emplace(context_, evaluateSource(file_, budget_));
+        if (init_) state_.reserve(std::max(init_->blockSize("sl_State"), evaluate_->blockSize("sl_State")));
+    }
+    setModelUniforms(*evaluate_, file_, medium, parameters);
+    evaluate_->set("sl_scatters", Vec3{medium.scatters(0) ? 1.0 : 0.0, medium.scatters(1) ? 1.0 : 0.0,
+                                       medium.scatters(2) ? 1.0 : 0.0});
+    if (init_) {
+        setModelUniforms(*init_, file_, medium, parameters);
+        direct_values_.reserve(4 * sizeof(float));
+        init_->dispatch(1, {{GlBinding::state, state_}, {GlBinding::values, direct_values_}});
+        checkLoops(direct_values_);
+    }
+    const RadialTableGl table =
+        makeRadialTableGl(RadialKernel(mean, area_mm2_ / static_cast<double>(points_.positions.size())), area_mm2_);
+    table_entries_ = table.entries();
+    table_first_bits_ = table.firstBits();
+    table_offset_ = table.offset;
+    radial_.upload(context_, table.texels);
+}
+
+void ModelSumGl::setPoints(const PointCloud& points, int threads) {
+    assert(!points.positions.empty() && points.areas.size() == points.positions.size() &&
+           points.normals.size() == points.positions.size());
+    points_ = points;
+    area_mm2_ = std::accumulate(points.areas.begin(), points.areas.end(), 0.0);
+    tree_ = buildHeapTree(points_.positions, points_per_leaf, threads);
+    spheres_.upload(context_, tree_.spheres);
+    fill<int>(leaf_begins_, begins(tree_));
+    beams_.clear();
+}
+
+void ModelSumGl::setLight(const Irradiance& irradiance, bool reads_wi, int threads) {
+    beams_.clear();
+    if (!reads_wi) return addBeam(modelPoints(points_, points_.normals, irradiance.transmitted), threads);
+    for (const searchlight::Beam& beam : irradiance.beams) addBeam(modelPoints(points_, beam.wi, beam.flux), threads);
+}
+
+void ModelSumGl::addBeam(std::span<const ModelPoint> points, int threads) {
+    auto beam = std::make_unique<Beam>(context_);
+    beam->nodes.upload(context_, modelNodesGl(tree_, points, threads));
+    std::vector<Texel> texels;
+    texels.reserve(4 * points.size());
+    for (const std::uint32_t i : tree_.order) {
+        const ModelPoint& point = points[i];
+        const Rgbf flux = toFloat(point.flux);
+        texels.push_back(texel(points_.positions[i], leastDistance(points_.areas[i])));
+        texels.push_back(texel(points_.normals[i]));
+        texels.push_back(texel(toFloat(point.wi)));
+        texels.push_back({flux.r, flux.g, flux.b, 0});
+    }
+    beam->points.upload(context_, texels);
+    beams_.push_back(std::move(beam));
+}
+
+void ModelSumGl::setReceivers(const VisibleSurface& visible, int threads) {
+    SumGl::setReceivers(visible.positions, threads);
+    receivers_and_normals_.clear();
+    receivers_and_normals_.reserve(2 * visible.positions.size());
+    for (const std::uint32_t i : receiver_tree_.order) {
+        receivers_and_normals_.push_back(texel(visible.positions[i]));
+        receivers_and_normals_.push_back(texel(visible.normals[i]));
+    }
+    fill<Texel>(receiver_data_, receivers_and_normals_);
+    eye_ = visible.eye;
+    values_.reserve((1 + 3 * visible.positions.size()) * sizeof(float));
+}
+
+unsigned ModelSumGl::makeLists(const Chains& chains, double error, Work& work) {
+    const int depth = receiver_tree_.depth;
+    const auto groups = static_cast<std::size_t>(groupsOf(chains, depth));
+    for (;;) {
+        lists_.reserve(groups * static_cast<std::size_t>(list_size_) * sizeof(int));
+        std::array<unsigned, 3> counters{};
+        counters_.upload<unsigned>(counters);
+        setChains(lists_pass_, chains, depth);
+        lists_pass_.set("table_last", table_entries_ - 1);
+        lists_pass_.set("table_first_bits", table_first_bits_);
+        lists_pass_.set("table_offset", static_cast<float>(table_offset_));
+        lists_pass_.set("opening", static_cast<float>(std::cbrt(error)));
+        lists_pass_.set("group_count", static_cast<int>(groups));
+        lists_pass_.set("list_size", list_size_);
+        lists_pass_.set("leaf_begin", 1 << tree_.depth);
+        lists_pass_.dispatch(workGroups(groups), {{0, lists_}, {1, counters_}},
+                             {{0, *radial_.texture}, {1, *spheres_.texture}, {4, *group_spheres_.texture}});
+        counters_.download<unsigned>(counters);
+        if (counters[0] == failed_loop)
+            throw deviceError("the driver ended a loop of the hierarchical sum before its time",
+                              "ask for a larger error, or use the CPU");
+        if (counters[0] == 0) {
+            work.expanded = counters[2] * static_cast<std::uint64_t>(slots());
+            return counters[1];
+        }
+        list_size_ *= 2;
+    }
+}
+
+void ModelSumGl::dispatch(std::size_t invocations, const gl::Buffer& receivers, const gl::Buffer& values) {
+    evaluate_->set("sl_count", static_cast<int>(invocations));
+    evaluate_->set("sl_eye", eye_);
+    bool first = true;
+    for (const auto& beam : beams_) {
+        // Another part of the same lists adds to what is there.
+        if (!first) evaluate_->set("sl_first", 0);
+        first = false;
+        evaluate_->dispatch(workGroups(invocations),
+                            {{GlBinding::state, state_},
+                             {1, lists_},
+                             {GlBinding::values, values},
+                             {3, receivers},
+                             {4, group_begins_},
+                             {5, leaf_begins_}},
+                            {{0, *beam->nodes.texture}, {1, *beam->points.texture}});
+    }
+}
+
+void ModelSumGl::checkLoops(const gl::Buffer& values) {
+    int failed = 0;
+    values.download(std::span(&failed, 1));
+    if (failed != 0) throw loopError(file_, budget_, failed);
+}
+
+SumGl::Work ModelSumGl::run(const Chains& chains, double error) {
+    Work work;
+    const unsigned longest = makeLists(chains, error, work);
+    const auto invocations = static_cast<std::size_t>(slots() * groupsOf(chains, receiver_tree_.depth));
+    constexpr int good = 0;
+    values_.upload(std::span(&good, 1));
+    evaluate_->set("sl_direct", 0);
+    evaluate_->set("sl_slots", slots());
+    evaluate_->set("sl_list_size", list_size_);
+    const unsigned part = budget_.driver_cuts ? counted_list_part : list_part;
+    for (unsigned from = 0; from < longest; from += part) {
+        evaluate_->set("sl_from", static_cast<int>(from));
+        evaluate_->set("sl_to", static_cast<int>(from + part));
+        evaluate_->set("sl_first", from == 0 ? 1 : 0);
+        dispatch(invocations, receiver_data_, values_);
+    }
+    checkLoops(values_);
+    return work;
+}
+
+std::vector<Rgb> ModelSumGl::direct(std::span<const std::uint32_t> places) {
+    std::vector<Texel> chosen;
+    for (const std::uint32_t place : places)
+        for (std::size_t k = 0; k < 2; ++k) chosen.push_back(receivers_and_normals_[2 * place + k]);
+    fill<Texel>(chosen_, chosen);
+    const int leaves = 1 << tree_.depth;
+    const std::size_t parts = static_cast<std::size_t>((leaves + leaves_per_part - 1) / leaves_per_part);
+    std::vector<float> values(1 + 3 * parts * places.size());
+    lists_.reserve(sizeof(int));
+    direct_values_.reserve(values.size() * sizeof(float));
+    constexpr int good = 0;
+    direct_values_.upload(std::span(&good, 1));
+    evaluate_->set("sl_direct", static_cast<int>(places.size()));
+    evaluate_->set("sl_leaves", leaves);
+    evaluate_->set("sl_to", leaves_per_part);
+    evaluate_->set("sl_first", 1);
+    dispatch(parts * places.size(), chosen_, direct_values_);
+    checkLoops(direct_values_);
+    direct_values_.download<float>(values);
+    std::vector<Rgb> sums(places.size());
+    if (beams_.empty()) return sums;
+    for (std::size_t i = 0; i < parts * places.size(); ++i) {
+        Rgb& sum = sums[i % places.size()];
+        sum = sum + Rgb{values[1 + 3 * i], values[2 + 3 * i], values[3 + 3 * i]};
+    }
+    return sums;
+}
+
+std::vector<Rgbf> ModelSumGl::exitance(std::size_t first, std::size_t last) const {
+    std::vector<Rgbf> values(last - first);
+    if (!beams_.empty()) values_.download<Rgbf>(values, sizeof(float) + first * sizeof(Rgbf));
+    return values;
+}
+
+}  // namespace searchlight

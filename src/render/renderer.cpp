@@ -1,0 +1,298 @@
+#include "render/renderer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+
+#include "base/error.h"
+#include "geometry/point_cache.h"
+#include "model/plane.h"
+#include "render/background.h"
+#include "render/coat.h"
+#include "render/shade.h"
+
+namespace searchlight {
+
+namespace {
+
+double milliseconds(std::chrono::steady_clock::time_point since) {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - since).count();
+}
+
+double meshArea(const Mesh& mesh) {
+    double area = 0;
+    for (const auto& [a, b, c] : mesh.triangles) {
+        const Vec3 origin = toDouble(mesh.positions[a]);
+        area += 0.5 * length(cross(toDouble(mesh.positions[b]) - origin, toDouble(mesh.positions[c]) - origin));
+    }
+    return area;
+}
+
+// A scene with these parts alone, as text: equal texts make equal stages.
+template <class... Members>
+std::string keyOf(const Scene& scene, Members... members) {
+    Scene part;
+    ((part.*members = scene.*members), ...);
+    return sceneJson(part);
+}
+
+}  // namespace
+
+std::string_view stageName(Stage stage) {
+    constexpr std::string_view names[stage_count] = {"object",  "rays",     "material",   "points", "irradiance",
+                                                     "visible", "exitance", "background", "coat",   "shade"};
+    return names[static_cast<std::size_t>(stage)];
+}
+
+std::size_t defaultPointCount(double area_mm2, const Medium& medium) {
+    double mean_free_path = std::numeric_limits<double>::infinity();
+    for (int c = 0; c < Rgb::channels; ++c) mean_free_path = std::min(mean_free_path, 1 / medium.sigmaTp()[c]);
+    std::size_t count = 100'000;
+    while (count < 800'000 && static_cast<double>(count) < area_mm2 / (mean_free_path * mean_free_path)) count *= 2;
+    return count;
+}
+
+struct Renderer::Impl {
+    MaterialSource materials;
+    gl::Context* context = nullptr;
+    Scene scene;
+    RenderSettings settings;
+    RenderReport report;
+    std::array<std::string, stage_count> keys;
+
+    Object object;
+    double area_mm2 = 0;
+    std::optional<RayScene> rays;
+    RenderMaterial material;
+    std::optional<Profile> profile;
+    PointCloud sampled;  // of a mesh; a cloud is its own points
+    Irradiance irradiance;
+    View view;
+    VisibleSurface visible;
+    const TechniqueEntry* entry = nullptr;
+    bool on_gl = false;
+    std::unique_ptr<Technique> technique;
+    bool final = false;
+    std::uint64_t slices = 0;  // of the exitance: each makes a new picture
+    Image background, picture;
+    std::vector<Rgbf> coat;  // radiance per sample; empty without a coat
+
+    StageReport& stage(Stage which) { return report.stages[static_cast<std::size_t>(which)]; }
+    std::uint64_t runs(Stage which) { return stage(which).runs; }
+
+    /// Runs `body` unless the stage was made from the same key.
+    template <class Body>
+    void refresh(Stage which, const std::string& key, const Body& body) {
+        std::string& made_from = keys[static_cast<std::size_t>(which)];
+        if (made_from == key) return;
+        made_from.clear();
+        const auto begin = std::chrono::steady_clock::now();
+        body();
+        stage(which).ms += milliseconds(begin);
+        ++stage(which).runs;
+        made_from = key;
+    }
+
+    const PointCloud& points() const { return object.isMesh() ? sampled : object.cloud; }
+
+    void refreshObject() {
+        refresh(Stage::object, keyOf(scene, &Scene::object, &Scene::scale), [&] {
+            object = placeObject(scene);
+            area_mm2 = meshArea(object.mesh);
+        });
+        refresh(Stage::rays, fmt::format("{}", runs(Stage::object)), [&] { rays.emplace(object.mesh); });
+    }
+
+    void refreshMaterial() {
+        refresh(Stage::material, keyOf(scene, &Scene::material, &Scene::model), [&] {
+            material = materials(scene);
+            profile.reset();
+            if (isRadial(material.model))
+                profile = tabulate(*material.evaluator, material.model, material.medium).profile;
+        });
+    }
+
+    void refreshPoints(Observer& observer) {
+        if (!object.isMesh()) return;
+        PointOptions options{.count = settings.points, .seed = settings.seed, .threads = settings.threads};
+        if (options.count == 0) options.count = defaultPointCount(area_mm2, material.medium);
+        refresh(Stage::points, fmt::format("{} {} {}", runs(Stage::rays), options.count, options.seed), [&] {
+            sampled =
+                settings.points_cache
+                    ? cachedPoints(object.mesh, object.content_hash, options, *settings.points_cache, observer).cloud
+                    : samplePoints(object.mesh, options, observer);
+        });
+    }
+
+    void refreshIrradiance(Observer& observer) {
+        const IrradianceOptions options{.eta = material.medium.eta,
+                                        .beams = !profile && !material.model.file.no_wi,
+                                        .light_samples = settings.light_samples,
+                                        .seed = settings.seed,
+                                        .threads = settings.threads};
+        const std::string key =
+            fmt::format("{} {} {} {} {} {} {}", runs(Stage::rays), runs(Stage::points), options.eta, options.beams,
+                        options.light_samples, options.seed, keyOf(scene, &Scene::lights));
+        refresh(Stage::irradiance, key, [&] {
+            irradiance =
+                computeIrradiance({points().positions, points().normals}, scene, object, &*rays, options, observer);
+        });
+    }
+
+    void refreshVisible(Observer& observer) {
+        const int width = std::max(1, static_cast<int>(std::lround(settings.width * settings.preview)));
+        const int height = std::max(1, static_cast<int>(std::lround(settings.height * settings.preview)));
+        const std::string key = fmt::format("{} {} {} {} {}", runs(Stage::rays), width, height, settings.edge_samples,
+                                            keyOf(scene, &Scene::camera));
+        refresh(Stage::visible, key, [&] {
+            report.camera = framedCamera(scene.camera, object, width, height);
+            view = makeView(report.camera, object, width, height);
+            visible = traceVisible(view, object, *rays,
+                                   {.edge_samples = settings.edge_samples, .threads = settings.threads}, observer);
+        });
+    }
+
+    void startExitance(Observer& observer) {
+        const TechniqueEntry& wanted = findTechnique(settings.technique);
+        if (!profile && !wanted.directional)
+            throw usageError(fmt::format("{} takes radial models, and {} is none", wanted.id, material.model.id),
+                             "--technique brute_force takes any model");
+        ParamValues options;
+        std::string key = fmt::format("{} {} {} {} {} {}", wanted.id, settings.gl, runs(Stage::points),
+                                      runs(Stage::irradiance), runs(Stage::visible), runs(Stage::material));
+        for (const Param& param : wanted.options) {
+            options[param.name] = valueOf(param, settings.technique_options);
+            checkValue(param, options[param.name]);
+            key += fmt::format(" {}", valueText(options[param.name]));
+        }
+        refresh(Stage::exitance, key, [&] {
+            if (entry != &wanted || on_gl != settings.gl) technique = wanted.make(settings.gl ? context : nullptr);
+            entry = &wanted;
+            on_gl = settings.gl;
+            final = false;
+            const RenderInput input{.scene = &scene,
+                                    .object = &object,
+                                    .rays = &*rays,
+                                    .points = &points(),
+                                    .irradiance = &irradiance,
+                                    .visible = &visible,
+                                    .model = &material.model,
+                                    .evaluator = material.evaluator.get(),
+                                    .medium = &material.medium,
+                                    .profile = profile ? &*profile : nullptr,
+                                    .threads = settings.threads,
+                                    .versions = {.points = runs(Stage::points) + runs(Stage::object),
+                                                 .light = runs(Stage::irradiance),
+                                                 .view = runs(Stage::visible),
+                                                 .material = runs(Stage::material)}};
+            technique->start(input, options, observer);
+        });
+    }
+
+    void start(Observer& observer) {
+        for (StageReport& each : report.stages) each.ms = 0;
+        refreshObject();
+        refreshMaterial();
+        refreshPoints(observer);
+        refreshIrradiance(observer);
+        refreshVisible(observer);
+        startExitance(observer);
+        refreshBackground(observer);
+        refreshCoat(observer);
+        describe();
+    }
+
+    bool step(Observer& observer) {
+        if (final) return true;
+        if (observer.cancelled()) throw interruptedError();
+        const auto begin = std::chrono::steady_clock::now();
+        final = technique->step(observer);
+        ++slices;
+        stage(Stage::exitance).ms += milliseconds(begin);
+        report.technique = technique->report();
+        return final;
+    }
+
+    void refreshBackground(Observer& observer) {
+        const std::string key = fmt::format("{} {} {}", runs(Stage::visible), settings.seed,
+                                            keyOf(scene, &Scene::lights, &Scene::ground, &Scene::backdrop));
+        refresh(Stage::background, key, [&] {
+            background = paintBackground(view, scene, object, &*rays, visible,
+                                         {.seed = settings.seed, .threads = settings.threads}, observer);
+        });
+    }
+
+    void refreshCoat(Observer& observer) {
+        std::string key = "none";
+        if (scene.coat)
+            key = fmt::format("{} {} {} {}", runs(Stage::visible), settings.seed, material.medium.eta,
+                              keyOf(scene, &Scene::lights, &Scene::coat));
+        refresh(Stage::coat, key, [&] {
+            coat.clear();
+            if (!scene.coat) return;
+            std::vector<Vec3f> wo;
+            for (const Vec3f& position : visible.positions)
+                wo.push_back(toFloat(normalize(visible.eye - toDouble(position))));
+            coat = coatRadiance(
+                {visible.positions, visible.normals, visible.geometric_normals, wo}, scene, object, &*rays,
+                {.eta = material.medium.eta, .seed = settings.seed, .threads = settings.threads, .context = context},
+                observer);
+        });
+    }
+
+    const Image& image() {
+        refresh(Stage::shade,
+                fmt::format("{} {} {} {}", runs(Stage::exitance), slices, runs(Stage::background), runs(Stage::coat)),
+                [&] {
+                    const std::vector<Rgbf> radiance =
+                        exitRadiance(visible, technique->exitance(), material.medium.eta, settings.threads);
+                    report.exposure = displayExposure(visible, radiance);
+                    picture = composite(visible, radiance, coat, background);
+                });
+        return picture;
+    }
+
+    void describe() {
+        report.points = points().positions.size();
+        report.receivers = visible.positions.size();
+        const double area = std::accumulate(points().areas.begin(), points().areas.end(), 0.0);
+        report.point_spacing_mm = std::sqrt(area / static_cast<double>(report.points));
+        report.notes = object.notes;
+        const Medium& medium = material.medium;
+        for (int c = 0; c < medium.channels; ++c) {
+            if (!medium.scatters(c))
+                report.notes.push_back(fmt::format("Channel {} does not scatter: it is black.", "RGB"[c]));
+            else if (report.point_spacing_mm > 1 / medium.sigmaTp()[c])
+                report.notes.push_back(fmt::format(
+                    "Points stand {:.3g} mm apart, further than light of channel {} travels ({:.3g} mm): details of "
+                    "the lighting are blurred by their spacing.",
+                    report.point_spacing_mm, "RGB"[c], 1 / medium.sigmaTp()[c]));
+        }
+    }
+};
+
+Renderer::Renderer(MaterialSource materials, gl::Context* context) : impl_(std::make_unique<Impl>()) {
+    impl_->materials = std::move(materials);
+    impl_->context = context;
+}
+Renderer::~Renderer() = default;
+
+void Renderer::setScene(Scene scene) { impl_->scene = std::move(scene); }
+void Renderer::setSettings(RenderSettings settings) { impl_->settings = std::move(settings); }
+
+Image Renderer::render(Observer& observer) {
+    start(observer);
+    while (!step(observer)) {
+    }
+    return image(observer);
+}
+
+void Renderer::start(Observer& observer) { impl_->start(observer); }
+bool Renderer::step(Observer& observer) { return impl_->step(observer); }
+const Image& Renderer::image(Observer&) { return impl_->image(); }
+const RenderReport& Renderer::report() const { return impl_->report; }
+
+}  // namespace searchlight

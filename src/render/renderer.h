@@ -1,0 +1,94 @@
+// A picture of a scene in stages, each redone only when what it reads has changed.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/cache_folder.h"
+#include "base/image.h"
+#include "render/technique.h"
+
+namespace searchlight {
+
+/// A scene's model, set to the scene's medium.
+struct RenderMaterial {
+    Model model;
+    Medium medium;
+    std::unique_ptr<Evaluator> evaluator;
+};
+
+/// Resolves a scene's material and model; called when one of the two changed. Whoever owns models and devices gives it.
+using MaterialSource = std::function<RenderMaterial(const Scene& scene)>;
+
+struct RenderSettings {
+    int width = 1280, height = 720;
+    double preview = 1;      ///< fraction of width and height that is computed: 0.5 while something moves
+    std::size_t points = 0;  ///< of irradiance on a mesh; 0: chosen from the object and the material
+    std::string technique = "hierarchical";
+    ParamValues technique_options;  ///< by the names of its Params; absent: default
+    int edge_samples = 8;           ///< rays through a pixel that an edge crosses
+    int light_samples = 512;        ///< of an occluded environment
+    bool gl = false;                ///< the technique's version on the renderer's context
+    std::uint64_t seed = 1;
+    int threads = 0;                          ///< 0: all
+    std::optional<CacheFolder> points_cache;  ///< where points of a mesh are kept
+};
+
+/// In the order in which they run.
+enum class Stage { object, rays, material, points, irradiance, visible, exitance, background, coat, shade };
+inline constexpr std::size_t stage_count = 10;
+std::string_view stageName(Stage stage);
+
+struct StageReport {
+    std::uint64_t runs = 0;  ///< since the renderer was made
+    double ms = 0;           ///< of the last render(); 0: nothing to do
+};
+
+struct RenderReport {
+    std::array<StageReport, stage_count> stages;
+    std::size_t points = 0, receivers = 0;
+    double point_spacing_mm = 0;
+    Camera camera;        ///< with the distance that was used
+    double exposure = 0;  ///< stops that suit a display
+    TechniqueReport technique;
+    std::vector<std::string> notes;  ///< what a user should know
+
+    const StageReport& operator[](Stage stage) const { return stages[static_cast<std::size_t>(stage)]; }
+};
+
+/// Keeps every stage's result. One thread at a time.
+class Renderer {
+public:
+    /// `context`: for techniques on OpenGL and coats in a file, and outlives the renderer; null: neither.
+    explicit Renderer(MaterialSource materials, gl::Context* context = nullptr);
+    ~Renderer();
+
+    void setScene(Scene scene);
+    void setSettings(RenderSettings settings);
+
+    /// The final picture: start(), step() until true, image(). Throws Error; a stage that threw is redone next time.
+    Image render(Observer& observer);
+
+    /// Brings every stage before the exitance up to date and begins that one.
+    void start(Observer& observer);
+    /// A slice of the exitance. True when it is final. Requires start().
+    bool step(Observer& observer);
+    /// The picture so far. Requires start().
+    const Image& image(Observer& observer);
+
+    const RenderReport& report() const;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+/// Points of irradiance for a surface of that area, so that they stand closer than the medium blurs, a transport mean
+/// free path of its densest channel: 100,000, 200,000, 400,000 or 800,000, so that a slider seldom changes it.
+std::size_t defaultPointCount(double area_mm2, const Medium& medium);
+
+}  // namespace searchlight

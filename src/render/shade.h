@@ -1,0 +1,24 @@
+// From exitance to a picture.
+#pragma once
+
+#include <span>
+
+#include "base/image.h"
+#include "render/view.h"
+
+namespace searchlight {
+
+/// Radiance of diffuse exit: T21(wo) M / (pi 4 C_phi(1/eta)), both exact (docs/conventions.md), per sample of `visible`
+/// for as many values of M in `exitance`. Negative values, which some models give, stay negative.
+std::vector<Rgbf> exitRadiance(const VisibleSurface& visible, std::span<const Rgbf> exitance, double eta, int threads);
+
+/// Stops that bring the radiance that 2 % of the object exceed to 0.8, near the white of a display; 0 for a dark
+/// object.
+double displayExposure(const VisibleSurface& visible, std::span<const Rgbf> radiance);
+
+/// The samples by their coverage over `background`, which has the size of `visible`. `coat` is added to `radiance`;
+/// it is as long, or empty. What is negative becomes 0.
+Image composite(const VisibleSurface& visible, std::span<const Rgbf> radiance, std::span<const Rgbf> coat,
+                const Image& background);
+
+}  // namespace searchlight

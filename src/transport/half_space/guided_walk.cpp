@@ -1,0 +1,377 @@
+// Every walk ends by leaving: absorption, and the preference for the way up, are in its weight.
+//
+// weight(z) exp(-kappa z) is what a lane carries: a flight from z to z' along w has density (1 + kappa w) exp(-(1 +
+// kappa w) s) instead of exp(-s), and the quotient is exp(kappa (z' - z)) / (1 + kappa w). At the surface, z = 0, it is
+// the weight itself.
+//
+// With isotropic scattering the azimuths of a walk are independent: the mean of r^2 over them is the sum of the squared
+// lateral steps, and x stays where the beam put it. Such walks know z alone.
+#include "transport/half_space/guided_walk.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <memory>
+
+#include "transport/walk/long_walk.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "transport/half_space/guided_walk.cpp"
+// As in half_space_walk.cpp.
+#define HWY_DISABLED_TARGETS HWY_SSSE3
+#define HWY_BROKEN_EMU128 0
+#include <hwy/foreach_target.h>
+
+#include "transport/walk/lane_walk-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace searchlight {
+namespace HWY_NAMESPACE {
+
+struct alignas(64) GuidedLanes {
+    float x[kLanes], y[kLanes], z[kLanes];  // isotropic: x is the last flight, y is r^2 so far
+    float u[kLanes], v[kLanes], w[kLanes];  // direction before the collision to come; isotropic: u is the mean x
+    float weight[kLanes];                   // times exp(-kappa z)
+    std::int32_t order[kLanes];
+    std::uint64_t s0[kLanes / 2], s1[kLanes / 2];
+};
+
+template <bool kFresnel, bool kIsotropic>
+class GuidedWalker {
+public:
+    GuidedWalker(const GuidedWalk& guided, SplitMix64 seeds, std::uint64_t walks, const RadialBins* bins,
+                 ExitTally* tally)
+        : guided_(guided),
+          waiting_(walks),
+          bins_(bins),
+          tally_(tally),
+          albedo_(static_cast<float>(1 - guided.walk.absorbed)) {
+        std::memset(&lanes_, 0, sizeof lanes_);
+        seed(lanes_, seeds);
+        scalar_ = SplitMix64(seeds.next());
+    }
+
+    GuidedSums run() {
+        while (refill()) {
+            free_ = 0;
+            std::uint64_t events = 0;
+            for (std::size_t at = 0; at < kLanes; at += hn::Lanes(Float()))
+                events |= static_cast<std::uint64_t>(advance(at)) << (at / kPackLanes);
+            for (; events != 0; events &= events - 1)
+                settle(static_cast<std::size_t>(std::countr_zero(events)) * kPackLanes);
+            flush();
+            if (HWY_UNLIKELY(++steps_ > kLongWalk)) rouletteLong();
+        }
+        return sums_;
+    }
+
+private:
+    static HWY_INLINE FloatV set(double value) { return hn::Set(Float(), static_cast<float>(value)); }
+
+    static HWY_INLINE FloatV series(const std::array<double, 4>& powers, FloatV w) {
+        FloatV p = set(powers[3]);
+        for (std::size_t i = 3; i-- > 0;) p = hn::MulAdd(p, w, set(powers[i]));
+        return p;
+    }
+
+    static HWY_INLINE std::uint64_t bitsOf(FloatM mask, std::size_t at) {
+        std::uint8_t bytes[8] = {};
+        hn::StoreMaskBits(Float(), mask, bytes);
+        std::uint64_t bits = 0;
+        std::memcpy(&bits, bytes, sizeof bits);
+        return (bits & ((std::uint64_t{1} << hn::Lanes(Float())) - 1)) << at;
+    }
+
+    static HWY_INLINE FloatM maskOf(std::uint64_t bits, std::size_t at) {
+        bits >>= at;
+        std::uint8_t bytes[8];
+        std::memcpy(bytes, &bits, sizeof bits);
+        return hn::LoadMaskBits(Float(), bytes);
+    }
+
+    // Proposes a direction to each walk; those that take it scatter and fly on as if there were no surface, the others
+    // wait for the next proposal. True when a walk of the pack crossed the surface.
+    HWY_INLINE bool advance(std::size_t at) {
+        const Float d;
+        const Int di;
+        const Word dw;
+        const FloatV zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+        Generator random{hn::Load(dw, lanes_.s0 + at / 2), hn::Load(dw, lanes_.s1 + at / 2)};
+        const FloatV s = signedUniform(random.next());
+        Direction from{zero, zero, hn::Load(d, lanes_.w + at)}, to{zero, zero, s};
+        if constexpr (!kIsotropic) {
+            from.u = hn::Load(d, lanes_.u + at);
+            from.v = hn::Load(d, lanes_.v + at);
+            const double g = guided_.walk.g;
+            to = henyeyGreenstein(from, set(g), set(0.5 * (1 - g) * (1 - g)), s, azimuth(random.next()));
+        }
+        const FloatV psi = series(guided_.psi, to.w);
+        const FloatV luck = hn::Mul(uniform(random.next()), set(guided_.most));
+        const FloatM takes = hn::Lt(luck, psi);
+        const FloatV rate = hn::MulAdd(set(guided_.kappa), to.w, one);
+        const FloatV inverse = hn::Div(one, hn::Mul(rate, psi));  // one division for both
+        const FloatV old_weight = hn::Load(d, lanes_.weight + at);
+        FloatV weight = hn::Mul(hn::Mul(old_weight, hn::Set(d, albedo_)), inverse);
+        if constexpr (!kIsotropic) weight = hn::Mul(weight, series(guided_.after, from.w));
+        const FloatV length = hn::IfThenElseZero(takes, hn::Mul(exponential(random.next()), hn::Mul(psi, inverse)));
+        const FloatV z = hn::MulAdd(length, to.w, hn::Load(d, lanes_.z + at));
+        if constexpr (kIsotropic) {
+            hn::Store(length, d, lanes_.x + at);
+            const FloatV sine2 = hn::NegMulAdd(to.w, to.w, one);
+            hn::Store(hn::MulAdd(hn::Mul(length, length), sine2, hn::Load(d, lanes_.y + at)), d, lanes_.y + at);
+        } else {
+            hn::Store(hn::MulAdd(length, to.u, hn::Load(d, lanes_.x + at)), d, lanes_.x + at);
+            hn::Store(hn::MulAdd(length, to.v, hn::Load(d, lanes_.y + at)), d, lanes_.y + at);
+            hn::Store(hn::IfThenElse(takes, to.u, from.u), d, lanes_.u + at);
+            hn::Store(hn::IfThenElse(takes, to.v, from.v), d, lanes_.v + at);
+        }
+        hn::Store(z, d, lanes_.z + at);
+        hn::Store(hn::IfThenElse(takes, to.w, from.w), d, lanes_.w + at);
+        hn::Store(hn::IfThenElse(takes, weight, old_weight), d, lanes_.weight + at);
+        const IntV scattered = hn::VecFromMask(di, hn::RebindMask(di, takes));
+        hn::Store(hn::Add(hn::Load(di, lanes_.order + at), scattered), di, lanes_.order + at);
+        hn::Store(random.s0, dw, lanes_.s0 + at / 2);
+        hn::Store(random.s1, dw, lanes_.s1 + at / 2);
+        return !hn::AllFalse(d, hn::Lt(z, zero));
+    }
+
+    // What the surface does to the flights that crossed it: they leave there, or go on below it at another rate.
+    HWY_INLINE void settle(std::size_t at) {
+        const Float d;
+        const Word dw;
+        const FloatV zero = hn::Zero(d), one = hn::Set(d, 1.0f), kappa = set(guided_.kappa);
+        const FloatV z = hn::Load(d, lanes_.z + at), w = hn::Load(d, lanes_.w + at);
+        const FloatM crosses = hn::Lt(z, zero);
+        const FloatV up = hn::Neg(w), beyond = hn::IfThenElseZero(crosses, hn::Div(z, w));
+        const FloatV rate = hn::MulAdd(kappa, w, one), inward_rate = hn::MulAdd(kappa, up, one);
+        FloatM leaves = crosses;
+        FloatV rest = zero;
+        if constexpr (kFresnel) {
+            Generator random{hn::Load(dw, lanes_.s0 + at / 2), hn::Load(dw, lanes_.s1 + at / 2)};
+            const FloatV chance = uniform(random.nextWhere(crosses));
+            hn::Store(random.s0, dw, lanes_.s0 + at / 2);
+            hn::Store(random.s1, dw, lanes_.s1 + at / 2);
+            leaves = hn::And(crosses, hn::Ge(chance, fresnel(up, set(guided_.walk.eta)).reflectance));
+            rest = hn::IfThenElse(leaves, zero, hn::Div(hn::Mul(beyond, rate), inward_rate));
+        }
+        const FloatV weight = hn::Load(d, lanes_.weight + at), at_surface = hn::Mul(weight, rate);
+        const FloatV change = hn::Sub(rest, beyond);  // of the length
+        FloatV x = hn::Load(d, lanes_.x + at), y = hn::Load(d, lanes_.y + at);
+        if constexpr (kIsotropic) {
+            // (length + change)^2 - length^2
+            const FloatV square = hn::Mul(change, hn::MulAdd(hn::Set(d, 2.0f), x, change));
+            y = hn::MulAdd(square, hn::NegMulAdd(w, w, one), y);
+        } else {
+            x = hn::MulAdd(change, hn::Load(d, lanes_.u + at), x);
+            y = hn::MulAdd(change, hn::Load(d, lanes_.v + at), y);
+            hn::Store(x, d, lanes_.x + at);
+        }
+        hn::Store(y, d, lanes_.y + at);
+        hn::Store(hn::IfThenElse(crosses, hn::Mul(rest, up), z), d, lanes_.z + at);
+        hn::Store(hn::IfThenElse(crosses, up, w), d, lanes_.w + at);
+        hn::Store(hn::IfThenElse(crosses, hn::Div(at_surface, inward_rate), weight), d, lanes_.weight + at);
+        if (hn::AllFalse(d, leaves)) return;
+        storeSet(at_surface, leaves, d, exits_.weight + exits_.count);
+        storeSet(kIsotropic ? hn::Load(d, lanes_.u + at) : x, leaves, d, exits_.x + exits_.count);
+        storeSet(y, leaves, d, exits_.y + exits_.count);
+        storeSet(hn::Load(Int(), lanes_.order + at), hn::RebindMask(Int(), leaves), Int(), exits_.order + exits_.count);
+        exits_.count += hn::CountTrue(d, leaves);
+        free_ |= bitsOf(leaves, at);
+    }
+
+    HWY_INLINE void flush() {
+        for (std::size_t i = 0; i < exits_.count; ++i) {
+            const double weight = exits_.weight[i], x = exits_.x[i], y = exits_.y[i];
+            sums_.total += weight;
+            sums_.x += weight * x;
+            sums_.r2 += weight * (kIsotropic ? y : x * x + y * y);
+        }
+        if constexpr (!kIsotropic)
+            if (tally_ != nullptr) addTo(*tally_);
+        exits_.count = 0;
+    }
+
+    HWY_NOINLINE void addTo(ExitTally& tally) const {
+        for (std::size_t i = 0; i < exits_.count; ++i) {
+            const double weight = exits_.weight[i], x = exits_.x[i], y = exits_.y[i], r2 = x * x + y * y;
+            ExitTally::Sums& sums = tally.sums(exits_.order[i] == -1 ? ExitTally::single : ExitTally::multiple);
+            sums.flux[0] += weight;
+            sums.x += weight * x;
+            sums.r2 += weight * r2;
+            sums.flux[1 + bins_->slot(r2)] += weight;
+        }
+    }
+
+    // As longWalkWeight(): without absorption nothing leads walks back.
+    HWY_NOINLINE void rouletteLong() {
+        for (std::size_t i = 0; i < kLanes; ++i) {
+            const double n = -static_cast<double>(lanes_.order[i]);
+            if (n <= kLongWalk || lanes_.weight[i] == 0 || (free_ >> i & 1) != 0) continue;
+            lanes_.weight[i] *= static_cast<float>(n / (n - 1));
+            if (n * scalar_.uniform() < 1) free_ |= std::uint64_t{1} << i;
+        }
+    }
+
+    HWY_INLINE bool refill() { return free_ == 0 || refillFree(); }
+
+    // Puts new walks into free lanes, while there are any. Orders count down from 0.
+    HWY_NOINLINE bool refillFree() {
+        std::uint64_t starts = 0;
+        for (std::uint64_t bits = free_; bits != 0; bits &= bits - 1) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(bits));
+            sums_.collisions -= static_cast<std::uint64_t>(static_cast<std::int64_t>(lanes_.order[i]));
+            if (waiting_ == 0) continue;
+            --waiting_;
+            starts |= bits & -bits;
+        }
+        walking_ = walking_ + static_cast<std::uint64_t>(std::popcount(starts)) -
+                   static_cast<std::uint64_t>(std::popcount(free_));
+        for (std::size_t at = 0; at < kLanes; at += hn::Lanes(Float()))
+            start(maskOf(starts, at), maskOf(free_, at), at);
+        return walking_ > 0;
+    }
+
+    // New walks stand before their first collision; free lanes without one weigh nothing and are parked far below.
+    HWY_INLINE void start(FloatM starts, FloatM free, std::size_t at) {
+        const Float d;
+        if (hn::AllFalse(d, free)) return;
+        const Word dw;
+        const double rate = 1 + guided_.kappa * guided_.walk.cos_beam;
+        const FloatV sine = set(guided_.walk.sin_beam), cosine = set(guided_.walk.cos_beam);
+        Generator random{hn::Load(dw, lanes_.s0 + at / 2), hn::Load(dw, lanes_.s1 + at / 2)};
+        const FloatV length = hn::Mul(exponential(random.nextWhere(starts)), set(1 / rate));
+        hn::Store(random.s0, dw, lanes_.s0 + at / 2);
+        hn::Store(random.s1, dw, lanes_.s1 + at / 2);
+        const auto put = [&](FloatV value, float* lanes) {
+            hn::Store(hn::IfThenElse(free, value, hn::Load(d, lanes + at)), d, lanes + at);
+        };
+        const FloatV x = hn::Mul(length, sine);
+        put(x, lanes_.x);
+        put(kIsotropic ? hn::Mul(x, x) : hn::Zero(d), lanes_.y);
+        put(hn::IfThenElse(starts, hn::Mul(length, cosine), hn::Set(d, 1e30f)), lanes_.z);
+        put(kIsotropic ? x : sine, lanes_.u);
+        put(hn::Zero(d), lanes_.v);
+        put(cosine, lanes_.w);
+        put(hn::IfThenElseZero(starts, set(1 / rate)), lanes_.weight);
+        storeWhere(hn::RebindMask(Int(), free), hn::Zero(Int()), lanes_.order + at);
+    }
+
+    const GuidedWalk& guided_;
+    std::uint64_t waiting_;   // walks not yet started
+    const RadialBins* bins_;  // with a tally, or null
+    ExitTally* tally_;
+    std::uint64_t walking_ = kLanes;
+    float albedo_;
+    std::uint64_t free_ = ~std::uint64_t{0};  // one bit a lane
+    std::int64_t steps_ = 0;
+    SplitMix64 scalar_;  // for what is rare
+    GuidedSums sums_;
+    GuidedLanes lanes_;
+    struct {
+        float weight[kLanes + 16], x[kLanes + 16], y[kLanes + 16];
+        std::int32_t order[kLanes + 16];
+        std::size_t count = 0;
+    } exits_;
+};
+
+template <bool kFresnel, bool kIsotropic>
+GuidedSums guidedAs(const GuidedWalk& guided, SplitMix64 seeds, std::uint64_t walks, const RadialBins* bins,
+                    ExitTally* tally) {
+    return std::make_unique<GuidedWalker<kFresnel, kIsotropic>>(guided, seeds, walks, bins, tally)->run();
+}
+
+GuidedSums guidedChunk(const GuidedWalk& guided, SplitMix64 seeds, std::uint64_t walks, const RadialBins* bins,
+                       ExitTally* tally) {
+    const bool fresnel = guided.walk.eta != 1, isotropic = guided.walk.g == 0;
+    return (fresnel     ? isotropic ? guidedAs<true, true> : guidedAs<true, false>
+                : isotropic ? guidedAs<false, true>
+                        : guidedAs<false, false>)(guided, seeds, walks, bins, tally);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace searchlight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace searchlight {
+
+HWY_EXPORT(guidedChunk);
+
+namespace {
+
+// Legendre moments psi_l / psi_0 of the light that dies out as exp(-kappa z), [Chandrasekhar1960] chapter III; `kappa`
+// is the rate at which they belong together: (2 l + 1) (1 - albedo g^l) psi_l + kappa [(l + 1) psi_(l + 1) + l psi_(l -
+// 1)] = 0.
+constexpr int kMoments = 64;
+
+// What is left of l = 0, with all higher moments eliminated; positive below the root.
+double residue(const HalfSpaceWalk& walk, double kappa, std::array<double, 4>& moments) {
+    const double albedo = 1 - walk.absorbed;
+    double ratio[kMoments + 1] = {};
+    for (int l = kMoments - 1; l > 0; --l) {
+        const double pivot = (2 * l + 1) * (1 - albedo * std::pow(walk.g, l)) + kappa * (l + 1) * ratio[l + 1];
+        if (!(pivot > 0)) return -1;
+        ratio[l] = -kappa * l / pivot;
+    }
+    moments[0] = 1;
+    for (std::size_t l = 1; l < 4; ++l) moments[l] = moments[l - 1] * ratio[l];
+    return walk.absorbed + kappa * ratio[1];
+}
+
+std::array<double, 4> powersOf(const std::array<double, 4>& legendre) {
+    const auto& [p0, p1, p2, p3] = legendre;
+    return {p0 - 0.5 * p2, p1 - 1.5 * p3, 1.5 * p2, 2.5 * p3};
+}
+
+}  // namespace
+
+GuidedWalk::GuidedWalk(const HalfSpaceWalk& half_space) : walk(half_space) {
+    std::array<double, 4> moments{1, 0, 0, 0};
+    double low = 0, high = 1;
+    for (int i = 0; i < 60; ++i) {
+        const double middle = 0.5 * (low + high);
+        std::array<double, 4> at{};
+        if (residue(walk, middle, at) > 0)
+            low = middle, moments = at;
+        else
+            high = middle;
+    }
+    kappa = low;
+    const auto value = [](const std::array<double, 4>& p, double w) {
+        return p[0] + w * (p[1] + w * (p[2] + w * p[3]));
+    };
+    // The series is cut; where it would come near 0 or below, a smoother one serves.
+    for (double smooth = 1;; smooth *= 0.9) {
+        std::array<double, 4> legendre{}, scattered{};
+        for (std::size_t l = 0; l < 4; ++l) {
+            legendre[l] = (2 * static_cast<double>(l) + 1) * moments[l] * std::pow(smooth, l);
+            scattered[l] = legendre[l] * std::pow(walk.g, static_cast<double>(l));
+        }
+        psi = powersOf(legendre);
+        after = powersOf(scattered);
+        double least = value(psi, -1);
+        most = least;
+        for (int i = 1; i <= 256; ++i) {
+            const double p = value(psi, -1 + i / 128.0);
+            least = std::min(least, p);
+            most = std::max(most, p);
+        }
+        if (least > 0.1) break;
+    }
+    most *= 1.0001;  // between those points, and rounded
+}
+
+bool GuidedWalk::useful() const { return walk.absorbed < 0.45 * (1 - walk.g * (1 - walk.absorbed)); }
+
+GuidedSums walkGuidedChunk(const GuidedWalk& guided, std::uint64_t seed, std::uint64_t chunk, std::uint64_t walks) {
+    return HWY_DYNAMIC_DISPATCH(guidedChunk)(guided, streamOf(seed, chunk), walks, nullptr, nullptr);
+}
+
+GuidedSums walkGuidedChunk(const GuidedWalk& guided, std::uint64_t seed, std::uint64_t chunk, std::uint64_t walks,
+                           const RadialBins& bins, ExitTally& tally) {
+    return HWY_DYNAMIC_DISPATCH(guidedChunk)(guided, streamOf(seed, chunk), walks, &bins, &tally);
+}
+
+}  // namespace searchlight
+#endif

@@ -1,0 +1,153 @@
+// What the best estimator decides before it walks: its tables, and how its time is divided between the walks that
+// foresee where light leaves and the guided walks that give totals and moments.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "transport/half_space/half_space_best.h"
+
+namespace searchlight {
+
+namespace {
+
+// Beyond, a sharp phase function makes few, heavy deposits, and what crosses the surface says more.
+constexpr double kMostForesight = 0.7;
+
+// The pilot has numbers of its own, the same for every seed.
+constexpr std::uint64_t kPilotSeed = 0x70696C6F74, kGuidedStream = 0x677569646564;
+constexpr std::uint64_t kPilotChunks = 16, kPilotWalks = 128, kPilotGuided = 512;
+constexpr double kStepTime = 5.5, kGuidedStart = 5;  // ns
+constexpr double kGuidedStepTime = 2.2, kGuidedIsotropicStepTime = 1.5;
+
+// The part of the time for guided walks, so that no moment is worse known than by the analogue walk. Walks that
+// foresee gain less in forward scattering; with absorption guided walks are short.
+constexpr double kPart = 0.15, kForwardPart = 0.6, kAbsorbingPart = 0.2;
+constexpr double kForward = 0.4, kAbsorbing = 0.01;
+
+// to = (1 - part) to + weight from.
+void mix(const ExitTally::Sums& from, double weight, double part, ExitTally::Sums& to) {
+    for (std::size_t i = 0; i < to.flux.size(); ++i) to.flux[i] = (1 - part) * to.flux[i] + weight * from.flux[i];
+    to.x = (1 - part) * to.x + weight * from.x;
+    to.r2 = (1 - part) * to.r2 + weight * from.r2;
+}
+
+LaneBins laneBins(std::span<const double> edges) {
+    LaneBins bins;
+    for (const double edge : edges) bins.next_edge.push_back(static_cast<float>(edge * edge));
+    bins.next_edge.push_back(std::numeric_limits<float>::infinity());
+    const std::size_t first = bins.next_edge[0] > 0 ? 0 : 1;
+    const std::span<const float> squares(bins.next_edge.data() + first, edges.size() - first);
+    // As in RadialBins: the upper bits of a float are a logarithmic index, refined until no cell holds two edges or the
+    // table grows out of the first cache.
+    constexpr std::size_t most_cells = 4096;
+    const auto cell = [](float r2, int shift) { return std::bit_cast<std::int32_t>(r2) >> shift; };
+    std::size_t cells = 0;
+    for (int bits = 3; bits <= 14; ++bits) {
+        const int shift = 23 - bits;
+        const auto needed = static_cast<std::size_t>(cell(squares.back(), shift) - cell(squares.front(), shift)) + 1;
+        if (bins.steps == 1 || (bits > 3 && needed > most_cells)) break;
+        bins.shift = shift;
+        bins.first_cell = cell(squares.front(), shift);
+        cells = needed;
+        bins.steps = 0;
+        for (std::size_t i = 0, run = 0; i < squares.size(); ++i) {
+            run = i > 0 && cell(squares[i], shift) == cell(squares[i - 1], shift) ? run + 1 : 1;
+            bins.steps = std::max(bins.steps, static_cast<std::int32_t>(run));
+        }
+    }
+    std::int32_t slot = static_cast<std::int32_t>(first);
+    const auto last = static_cast<std::int32_t>(edges.size());
+    for (std::size_t c = 0; c < cells; ++c) {
+        while (slot < last && cell(bins.next_edge[static_cast<std::size_t>(slot)], bins.shift) - bins.first_cell <
+                                  static_cast<std::int32_t>(c))
+            ++slot;
+        bins.first_slot.push_back(slot);
+    }
+    return bins;
+}
+
+}  // namespace
+
+BestPlan::BestPlan(const HalfSpaceWalk& half_space, std::span<const double> edges)
+    : walk(half_space),
+      foresees(half_space.g <= kMostForesight),
+      importance(makeImportanceTable(half_space, edges)),
+      bins(laneBins(edges)),
+      guided(half_space),
+      layout{RadialBins(edges)} {
+    if (walk.sin_beam == 0) single = singleScattering(walk, edges);
+    if (!guided.useful()) return;
+    if (!foresees) {
+        guided_share = guided_part = 1;
+        return;
+    }
+    BatchRatios flux(layout.slots());
+    std::uint64_t steps = 0;
+    for (std::uint64_t chunk = 0; chunk < kPilotChunks; ++chunk) {
+        ExitTally pilot(layout);
+        steps += walkForeseeingChunk(*this, streamOf(kPilotSeed, chunk), kPilotWalks, pilot);
+        flux.add(pilot.sums(ExitTally::multiple).flux, kPilotWalks);
+    }
+    constexpr std::uint64_t walks = kPilotChunks * kPilotWalks;
+    const GuidedSums led = walkGuidedChunk(guided, kPilotSeed, kPilotChunks, kPilotGuided);
+    const double total = led.total / kPilotGuided;
+    const double time = kStepTime * static_cast<double>(steps) / walks;
+    const double guided_time = kGuidedStart + (walk.g == 0 ? kGuidedIsotropicStepTime : kGuidedStepTime) *
+                                                  static_cast<double>(led.collisions) / kPilotGuided;
+    const double part = walk.g > kForward                           ? kForwardPart
+                        : walk.g == 0 && walk.absorbed > kAbsorbing ? kAbsorbingPart
+                                                                    : kPart;
+    guided_share = part / (1 - part) * time / guided_time;
+    const std::size_t last = layout.slots() - 1;
+    counts_beyond = flux.estimate(last, walks).mean > 0.02 * total;
+    if (walk.g == 0) return;
+    // Guided walks leave with nearly equal weights, total each: their bins have the variance of counts.
+    double variance = 0, guided_variance = 0;
+    for (std::size_t slot = 1; slot < last; ++slot) {
+        const Estimate bin = flux.estimate(slot, walks);
+        variance += bin.standard_error * bin.standard_error * static_cast<double>(walks);
+        guided_variance += bin.mean * total / guided_share;
+    }
+    if (variance > 0) guided_part = variance / (variance + guided_variance);
+}
+
+double BestPlan::reach(std::uint64_t walks) const {
+    return std::log(std::max(1.0, static_cast<double>(walks) / 100)) / std::max(importance.decay, 1e-30);
+}
+
+std::uint64_t walkBestChunk(const BestPlan& plan, std::uint64_t seed, std::uint64_t chunk, std::uint64_t walks,
+                            ExitTally& tally) {
+    const double n = static_cast<double>(walks);
+    ExitTally::Sums &one = tally.sums(ExitTally::single), &more = tally.sums(ExitTally::multiple);
+    std::uint64_t collisions = 0;
+    if (plan.guided_part < 1) collisions = walkForeseeingChunk(plan, streamOf(seed, chunk), walks, tally);
+    const auto led = static_cast<std::uint64_t>(std::ceil(n * plan.guided_share));
+    const double scale = n / static_cast<double>(led);
+    GuidedSums all;
+    if (plan.guided_part > 0) {
+        ExitTally guided(plan.layout);
+        all = walkGuidedChunk(plan.guided, seed ^ kGuidedStream, chunk, led, plan.layout.bins, guided);
+        for (const ExitTally::Order order : {ExitTally::single, ExitTally::multiple})
+            mix(guided.sums(order), plan.guided_part * scale, plan.guided_part, tally.sums(order));
+    } else if (led > 0) {
+        all = walkGuidedChunk(plan.guided, seed ^ kGuidedStream, chunk, led);
+    }
+    if (plan.single) {
+        one.flux[0] = n * plan.single->total;
+        for (std::size_t i = 0; i < plan.single->flux.size(); ++i) one.flux[1 + i] = n * plan.single->flux[i];
+        one.x = 0;
+        one.r2 = n * plan.single->r2;
+    }
+    if (led == 0) return collisions;
+    more.flux[0] = scale * all.total - one.flux[0];
+    more.x = scale * all.x - one.x;
+    more.r2 = scale * all.r2 - one.r2;
+    if (plan.counts_beyond) {
+        more.flux.back() = more.flux[0];
+        for (std::size_t slot = 1; slot + 1 < more.flux.size(); ++slot) more.flux.back() -= more.flux[slot];
+    }
+    return collisions + all.collisions;
+}
+
+}  // namespace searchlight

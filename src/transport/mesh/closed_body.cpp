@@ -1,0 +1,208 @@
+#include "transport/mesh/closed_body.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "geometry/edges.h"
+
+namespace searchlight {
+
+namespace {
+
+// Side of a cell of the safe regions in mean free paths, within limits of the mesh's length: measured on marble and
+// skin (docs/mesh-reference.md). Finer cells save rays and cost cache.
+constexpr double kCellMfp = 1.0;
+constexpr double kMostAlong = 256, kFewestAlong = 32;
+
+// Single precision knows positions to 1e-3 mean free paths here.
+constexpr double kLargestMfp = 1e4;
+
+std::string faultOfEdges(const Mesh& mesh) {
+    const Weld weld = weldPositions(mesh.positions);
+    const std::vector<HalfEdge> edges = halfEdges(mesh, weld);
+    std::size_t open = 0, crowded = 0, turned = 0;
+    const HalfEdge* first = nullptr;
+    for (std::size_t i = 0, end = 0; i < edges.size(); i = end) {
+        while (end < edges.size() && edges[end].low == edges[i].low && edges[end].high == edges[i].high) ++end;
+        const bool pair = end - i == 2, opposite = pair && edges[i].ascending != edges[i + 1].ascending;
+        if (end - i == 1) ++open;
+        if (end - i > 2) ++crowded;
+        if (pair && !opposite) ++turned;
+        if (!opposite && !first) first = &edges[i];
+    }
+    if (!first) return {};
+    const auto corner = [&](std::size_t k) {
+        const Vec3f p = mesh.positions[mesh.triangles[first->triangle][k % 3]];
+        return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x, p.y, p.z);
+    };
+    std::string fault;
+    const auto add = [&](std::size_t count, const char* what) {
+        if (count > 0) fault += fmt::format("{}{} {}", fault.empty() ? "" : ", ", count, what);
+    };
+    add(open, "open edges");
+    add(crowded, "edges of more than two triangles");
+    add(turned, "edges between triangles of opposite orientation");
+    return fmt::format("{}; the first from {} to {}, of triangle {}", fault, corner(first->side),
+                       corner(first->side + std::size_t{1}), first->triangle);
+}
+
+}  // namespace
+
+Ball::Ball(double radius_mm, double cell_area_mm2) : radius_(radius_mm) {
+    if (!(radius_mm > 0 && radius_mm <= 1e9))
+        throw inputError("the radius of a sphere is " + numberText(radius_mm), "above 0, up to 1e9 mm");
+    const double surface = 4 * std::numbers::pi * radius_mm * radius_mm;
+    cells_ = makeSphereCells(radius_mm, cell_area_mm2 > 0 ? cell_area_mm2 : surface / 32768);
+}
+
+double Ball::area() const { return 4 * std::numbers::pi * radius_ * radius_; }
+double Ball::volume() const { return 4 * std::numbers::pi / 3 * radius_ * radius_ * radius_; }
+
+SurfacePoint Ball::pointAt(double u, double v, double) const {
+    const double y = 1 - 2 * u, ring = std::sqrt(std::max(0.0, 1 - y * y)), turn = 2 * std::numbers::pi * v;
+    const Vec3 normal{ring * std::cos(turn), y, ring * std::sin(turn)};
+    return {radius_ * normal, normal};
+}
+
+void Ball::cross(std::span<const Ray> flights, std::span<Crossing> crossings) const {
+    for (std::size_t i = 0; i < flights.size(); ++i) {
+        const Vec3 p = toDouble(flights[i].origin), d = toDouble(flights[i].direction);
+        // A start that rounding has put outside crosses at once if it goes outwards; a sphere loses no flight.
+        const double a = dot(d, d), b = dot(p, d), c = dot(p, p) - radius_ * radius_;
+        Crossing& crossing = crossings[i];
+        crossing = {};
+        if (a == 0) continue;  // shorter than a rounding
+        const double t = std::max(0.0, (-b + std::sqrt(std::max(0.0, b * b - a * c))) / a);
+        if (t > static_cast<double>(flights[i].t_max)) continue;
+        crossing.what = Crossing::What::surface;
+        crossing.normal = normalize(p + t * d);
+        crossing.position = crossing.inside = toFloat(radius_ * crossing.normal);
+        crossing.cell = cells_.at(crossing.normal);
+    }
+}
+
+double enclosedVolume(const Mesh& mesh) {
+    double volume = 0;
+    for (const auto& [a, b, c] : mesh.triangles)
+        volume += dot(toDouble(mesh.positions[a]), cross(toDouble(mesh.positions[b]), toDouble(mesh.positions[c])));
+    return volume / 6;
+}
+
+void checkClosed(const Mesh& mesh) {
+    if (mesh.triangles.empty()) throw inputError("a mesh without triangles encloses nothing");
+    if (const std::string fault = faultOfEdges(mesh); !fault.empty())
+        throw inputError("the mesh encloses no volume: " + fault,
+                         "a reference needs a closed mesh in which each edge joins two triangles");
+    if (const double volume = enclosedVolume(mesh); !(volume > 0))
+        throw inputError(fmt::format("the mesh is inside out: it encloses {:.4g} mm^3", volume),
+                         "triangles run counter-clockwise seen from outside");
+}
+
+MeshBody::MeshBody(Mesh mesh, const MeshBodyOptions& options)
+    : mesh_((checkClosed(mesh), std::move(mesh))), rays_(mesh_), cells_(mesh_, options.cell_area_mm2) {
+    const auto begin = std::chrono::steady_clock::now();
+    volume_ = enclosedVolume(mesh_);
+    double area = 0;
+    Vec3f low = mesh_.positions[mesh_.triangles[0][0]], high = low;
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+        area_to_.push_back(area += triangleArea(mesh_, t));
+        for (const std::uint32_t v : mesh_.triangles[t]) {
+            const Vec3f p = mesh_.positions[v];
+            low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+            high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+        }
+    }
+    const Vec3 extent = toDouble(high) - toDouble(low);
+    const double longest = std::max({extent.x, extent.y, extent.z});
+    if (!(options.shortest_mfp > 0 && longest <= kLargestMfp * options.shortest_mfp))
+        throw inputError(fmt::format("the mesh is {:.3g} mean free paths long", longest / options.shortest_mfp),
+                         "up to 1e4: beyond, single precision does not resolve them");
+    // Coordinates are rounded to 2^-25 of the largest; three of them, and the rounding of barycentric coordinates.
+    nudge_ = static_cast<double>(rays_.extent()) * 0x1p-22;
+    const double cell = std::clamp(kCellMfp * options.shortest_mfp, longest / kMostAlong, longest / kFewestAlong);
+    regions_ = options.regions ? buildSafeRegions(mesh_, cell, options.shortest_mfp, options.threads)
+                               : unknownRegion(toDouble(low), toDouble(high));
+    build_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+SurfacePoint MeshBody::pointAt(double u, double v, double w) const {
+    const double target = u * area();
+    const auto found = std::ranges::upper_bound(area_to_, target);
+    const auto t = std::min(static_cast<std::size_t>(found - area_to_.begin()), area_to_.size() - 1);
+    const auto& [a, b, c] = mesh_.triangles[t];
+    const Vec3 p = toDouble(mesh_.positions[a]);
+    const double root = std::sqrt(v), along = root * w;
+    return {p + (1 - root) * (toDouble(mesh_.positions[b]) - p) + along * (toDouble(mesh_.positions[c]) - p),
+            unitNormal(mesh_, t)};
+}
+
+Vec3f MeshBody::below(const SurfacePoint& point) const { return toFloat(point.position - nudge_ * point.normal); }
+
+bool MeshBody::occluded(const SurfacePoint& point, Vec3 wi, double distance) const {
+    const float reach = static_cast<float>(distance);
+    return rays_.occluded({toFloat(point.position + nudge_ * point.normal), toFloat(wi), 0, reach});
+}
+
+// A flight that starts on the surface may have been rounded to its far side and cross it inwards first: that crossing
+// is none. Nothing is returned when the flight comes from farther outside.
+std::optional<RayHit> MeshBody::leaving(const Ray& flight, const RayHit& entered) const {
+    Ray rest = flight;
+    RayHit hit = entered;
+    for (int i = 0; i < 4; ++i) {
+        const double cosine = dot(toDouble(flight.direction), toDouble(hit.normal));
+        if (cosine > 0) return hit;
+        if (-cosine * static_cast<double>(hit.t) > 2 * nudge_) return {};
+        rest.t_min = std::nextafter(hit.t, rest.t_max);
+        const std::optional<RayHit> next = rays_.intersect(rest);
+        if (!next) return RayHit{std::numeric_limits<float>::infinity()};
+        hit = *next;
+    }
+    return {};
+}
+
+void MeshBody::cross(std::span<const Ray> flights, std::span<Crossing> crossings) const {
+    constexpr std::size_t most = 64;
+    assert(flights.size() == crossings.size() && flights.size() <= most);
+    RayHit hits[most];
+    rays_.intersect(flights, {hits, flights.size()}, false);
+    for (std::size_t i = 0; i < flights.size(); ++i) {
+        const Ray& flight = flights[i];
+        Crossing& crossing = crossings[i];
+        crossing = {};
+        RayHit hit = hits[i];
+        if (std::isfinite(hit.t) && !(dot(toDouble(flight.direction), toDouble(hit.normal)) > 0)) {
+            const std::optional<RayHit> left = leaving(flight, hit);
+            if (!left) {
+                crossing.what = Crossing::What::lost;
+                continue;
+            }
+            hit = *left;
+        }
+        if (!std::isfinite(hit.t)) {
+            const Vec3 end = toDouble(flight.origin) + static_cast<double>(flight.t_max) * toDouble(flight.direction);
+            const Vec3 at = (1 / static_cast<double>(regions_.cell_mm)) * (end - toDouble(regions_.origin));
+            const bool within =
+                at.x > 0 && at.y > 0 && at.z > 0 && at.x < regions_.nx && at.y < regions_.ny && at.z < regions_.nz;
+            if (!within) crossing.what = Crossing::What::lost;
+            continue;
+        }
+        const auto& [a, b, c] = mesh_.triangles[hit.triangle];
+        const Vec3 p = toDouble(mesh_.positions[a]);
+        const Vec3 at = p + static_cast<double>(hit.u) * (toDouble(mesh_.positions[b]) - p) +
+                        static_cast<double>(hit.v) * (toDouble(mesh_.positions[c]) - p);
+        crossing.what = Crossing::What::surface;
+        crossing.normal = toDouble(hit.normal);
+        crossing.position = toFloat(at);
+        crossing.inside = toFloat(at - nudge_ * crossing.normal);
+        crossing.cell = cells_.at(hit.triangle, hit.u, hit.v);
+    }
+}
+
+}  // namespace searchlight

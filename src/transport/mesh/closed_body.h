@@ -1,0 +1,110 @@
+// Bodies that walks stay inside of: a sphere, and what a closed mesh encloses. Lengths are mm.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "geometry/rays.h"
+#include "scene/mesh.h"
+#include "transport/mesh/safe_regions.h"
+#include "transport/mesh/surface_cells.h"
+
+namespace searchlight {
+
+/// A point of a surface.
+struct SurfacePoint {
+    Vec3 position;
+    Vec3 normal;  ///< geometric, outward, unit
+};
+
+/// Where a flight meets the surface from inside.
+struct Crossing {
+    enum class What : std::uint8_t { none, surface, lost };
+
+    What what = What::none;  ///< lost: rounding has put the flight on the wrong side of the surface
+    std::uint32_t cell = 0;  ///< of the surface
+    Vec3f position;          ///< on the surface; for `surface` alone, like what follows
+    Vec3f inside;  ///< the same, moved inwards by as much as it may be rounded: from where a reflection goes on
+    Vec3 normal;   ///< outward, unit
+};
+
+/// A sphere about the origin.
+class Ball {
+public:
+    /// Throws an input Error unless the radius is positive, and that of makeSphereCells.
+    Ball(double radius_mm, double cell_area_mm2);
+
+    double radius() const { return radius_; }
+    double area() const;
+    double volume() const;
+    const SphereCells& cells() const { return cells_; }
+    std::size_t cellCount() const { return cells_.size(); }
+    double cellArea(std::size_t) const { return cells_.area_mm2(); }
+
+    /// Uniform by area for uniform numbers in [0, 1).
+    SurfacePoint pointAt(double u, double v, double w) const;
+    /// Where to start from just below a point of the surface.
+    Vec3f below(const SurfacePoint& point) const { return toFloat(point.position); }
+    /// Whether the body hides what lies `distance` away in direction wi (unit, above the surface).
+    bool occluded(const SurfacePoint&, Vec3, double) const { return false; }
+    /// Flights that may have left: where from t 0 to t_max they cross from inside.
+    void cross(std::span<const Ray> flights, std::span<Crossing> crossings) const;
+
+private:
+    double radius_;
+    SphereCells cells_;
+};
+
+struct MeshBodyOptions {
+    double cell_area_mm2 = 0;  ///< of the receivers; 0: one per triangle
+    double shortest_mfp = 1;   ///< mm, of the walks to come: chooses the grid of safe regions
+    bool regions = true;       ///< false: a ray for each flight; slow, and what walks without are tested against
+    int threads = 0;
+};
+
+/// What a closed mesh encloses. Immutable; all queries may run on many threads at once.
+class MeshBody {
+public:
+    /// Throws an input Error for a mesh that encloses nothing: open, inconsistently oriented, inside out, without
+    /// volume; and for one so large against the mean free path that single precision would not do.
+    MeshBody(Mesh mesh, const MeshBodyOptions& options);
+
+    double area() const { return area_to_.back(); }
+    double volume() const { return volume_; }
+    const Mesh& mesh() const { return mesh_; }
+    const RayScene& rays() const { return rays_; }
+    const SurfaceCells& cells() const { return cells_; }
+    std::size_t cellCount() const { return cells_.size(); }
+    double cellArea(std::size_t cell) const { return cells_.areas_mm2()[cell]; }
+    const SafeRegions& regions() const { return regions_; }
+    double build_seconds() const { return build_seconds_; }
+
+    SurfacePoint pointAt(double u, double v, double w) const;
+    Vec3f below(const SurfacePoint& point) const;
+    bool occluded(const SurfacePoint& point, Vec3 wi, double distance) const;
+    void cross(std::span<const Ray> flights, std::span<Crossing> crossings) const;
+
+private:
+    std::optional<RayHit> leaving(const Ray& flight, const RayHit& entered) const;
+
+    Mesh mesh_;
+    RayScene rays_;
+    SurfaceCells cells_;
+    SafeRegions regions_;
+    std::vector<double> area_to_;  ///< of the triangles up to each
+    double volume_ = 0;
+    double nudge_ = 0;  ///< mm: how far a point on the surface may be rounded off it
+    double build_seconds_ = 0;
+};
+
+/// Of the volume that the mesh encloses, mm^3; below 0 when it is inside out.
+double enclosedVolume(const Mesh& mesh);
+
+/// Throws an input Error that says what is wrong unless every edge has exactly two triangles that run along it in
+/// opposite ways and the volume is positive. Vertices at one place count as one.
+void checkClosed(const Mesh& mesh);
+
+}  // namespace searchlight

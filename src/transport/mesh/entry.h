@@ -1,0 +1,83 @@
+// Where and how light enters a body: what its walks start from.
+#pragma once
+
+#include <cstdint>
+#include <variant>
+#include <vector>
+
+#include "base/vec.h"
+#include "light/light_sampler.h"
+#include "transport/walk/random.h"
+
+namespace searchlight {
+
+/// Radiance 1 from everywhere on every point of the surface: nothing casts a shadow. Has closed forms to test with.
+struct UniformLight {};
+
+/// Flux 1 along a ray that meets the body's surface at a point.
+struct PencilLight {
+    Vec3 position;  ///< on the surface, mm
+    Vec3 normal;    ///< outward, unit
+    Vec3 wi;        ///< towards the light, unit, above the surface
+};
+
+/// A LightSampler outlives its use.
+using Illumination = std::variant<UniformLight, PencilLight, const LightSampler*>;
+
+/// A walk about to start.
+struct Entry {
+    Vec3f position;    ///< mm, just inside
+    Vec3f direction;   ///< refracted, unit
+    float weight = 0;  ///< in multiples of EntryOptions::whole
+};
+
+/// Flux that candidates carried, in multiples of EntryOptions::whole.
+struct EntryTotals {
+    double arrived = 0;  ///< reached the surface
+    double entered = 0;  ///< crossed it
+    std::uint64_t arrivals = 0, walks = 0;
+};
+
+struct EntryOptions {
+    int channel = 0;
+    double eta = 1;
+    double whole = 1;  ///< weight that candidates are rouletted up to, mm^2
+};
+
+/// Candidates of one chunk, spread evenly over the surface. A candidate of weight w (area times irradiance over the
+/// probability of its direction, mm^2) survives with probability w / whole, and then weighs 1: walks cost the same
+/// whatever they weigh. What the surface mirrors is drawn like that too.
+template <class Body>
+class EntrySource {
+public:
+    EntrySource(const Body& body, const Illumination& illumination, const EntryOptions& options,
+                std::uint64_t candidates, SplitMix64 random);
+
+    /// The next walk. False when all candidates have been tried.
+    bool next(Entry& entry);
+
+    const EntryTotals& totals() const { return totals_; }
+    std::uint64_t tried() const { return tried_; }
+
+    struct Candidate {
+        double weight = 0;  ///< flux through the surface's outside, before roulette,
+                            ///< shadow and Fresnel
+        Entry entry;        ///< without its direction
+        Vec3 normal, wi;
+        double distance = 0;
+        bool shadowed = false;  ///< may be
+        Vec3 position;
+    };
+    /// The next candidate, unweighted by any roulette: for pilots.
+    Candidate draw();
+
+private:
+    const Body& body_;
+    const Illumination& illumination_;
+    EntryOptions options_;
+    std::uint64_t candidates_, tried_ = 0;
+    SplitMix64 random_;
+    EntryTotals totals_;
+};
+
+}  // namespace searchlight

@@ -1,0 +1,65 @@
+#include "render/shade.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace searchlight {
+namespace {
+
+// Samples at the origin that are seen under the cosines given.
+VisibleSurface seenUnder(const std::vector<double>& cosines) {
+    VisibleSurface visible{.width = static_cast<int>(cosines.size()), .height = 1, .eye = {0, 0, 1000}};
+    for (std::size_t i = 0; i < cosines.size(); ++i) {
+        const double sine = std::sqrt(1 - cosines[i] * cosines[i]);
+        visible.pixels.push_back(static_cast<std::uint32_t>(i));
+        visible.coverage.push_back(1);
+        visible.positions.push_back({});
+        visible.normals.push_back(toFloat(Vec3{sine, 0, cosines[i]}));
+        visible.geometric_normals.push_back(visible.normals.back());
+    }
+    return visible;
+}
+
+TEST(Shade, RadianceOverTheHemisphereIsExitance) {
+    // T21 goes as the cosine near 0, so midpoints converge as n^-2.
+    constexpr int n = 4000;
+    std::vector<double> cosines;
+    for (int i = 0; i < n; ++i) cosines.push_back((i + 0.5) / n);
+    for (const double eta : {1.0, 1.3, 1.5, 1 / 1.5}) {
+        const std::vector<Rgbf> exitance(n, Rgbf{0.25f, 1, 3});
+        const std::vector<Rgbf> radiance = exitRadiance(seenUnder(cosines), exitance, eta, 0);
+        Rgb flux;
+        for (int i = 0; i < n; ++i)
+            flux = flux + (2 * std::numbers::pi * cosines[static_cast<std::size_t>(i)] / n) *
+                              toDouble(radiance[static_cast<std::size_t>(i)]);
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(flux[c] / toDouble(exitance[0])[c], 1, 1e-5) << eta;
+    }
+}
+
+TEST(Shade, CoverageIsAlphaOverTheBackground) {
+    VisibleSurface visible = seenUnder({1, 1, 1});
+    visible.coverage = {1, 0.25f, 0.25f};
+    visible.pixels = {0, 1, 1};
+    const std::vector<Rgbf> radiance{{1, 2, 3}, {4, 4, 4}, {8, 8, -8}};
+    const Image alone = composite(visible, radiance, {}, Image(3, 1));
+    EXPECT_EQ(alone.at(0, 0), (Rgba{1, 2, 3, 1}));
+    EXPECT_EQ(alone.at(1, 0), (Rgba{3, 3, 1, 0.5f}));  // a negative radiance counts as 0
+    EXPECT_EQ(alone.at(2, 0), (Rgba{0, 0, 0, 0}));
+    const Image before = composite(visible, radiance, {}, Image(3, 1, {2, 2, 2, 1}));
+    EXPECT_EQ(before.at(0, 0), (Rgba{1, 2, 3, 1}));
+    EXPECT_EQ(before.at(1, 0), (Rgba{4, 4, 2, 1}));
+    EXPECT_EQ(before.at(2, 0), (Rgba{2, 2, 2, 1}));
+    const std::vector<Rgbf> coat{{1, 1, 1}, {0, 0, 0}, {4, 0, 0}};
+    EXPECT_EQ(composite(visible, radiance, coat, Image(3, 1)).at(0, 0), (Rgba{2, 3, 4, 1}));
+}
+
+TEST(Shade, ExposureBringsTheBrightPartsNearWhite) {
+    VisibleSurface visible = seenUnder(std::vector<double>(100, 1.0));
+    std::vector<Rgbf> radiance(100, Rgbf{0.05f, 0.1f, 0.1f});
+    radiance[7] = {50, 50, 50};  // a highlight that may burn out
+    EXPECT_NEAR(displayExposure(visible, radiance), 3, 1e-5);
+    EXPECT_EQ(displayExposure(visible, std::vector<Rgbf>(100)), 0);
+}
+
+}  // namespace
+}  // namespace searchlight
