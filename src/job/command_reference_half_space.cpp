@@ -144,7 +144,7 @@ JobResult runReferenceHalfSpace(const Job& job, Engine& engine, Observer& observ
     reference.grid = static_cast<int>(options.number("grid"));
     reference.grid_extent_mm = options.number("grid_extent");
     reference.threads = static_cast<int>(options.number("threads"));
-    if (options.text("estimator") == "best") reference.estimator = Estimator::best;
+    if (options.text("estimator") == "analogue") reference.estimator = Estimator::analogue;
     option::requireGridExtent(options);
     reference.beam = beamOf(options);
     reference.white = options.toggle("white");
@@ -238,48 +238,48 @@ JobResult runReferenceHalfSpace(const Job& job, Engine& engine, Observer& observ
 }  // namespace
 
 Command referenceHalfSpaceCommand() {
-    return {
-        .name = "reference halfspace",
-        .summary = "Walk the searchlight problem by unbiased Monte Carlo",
-        .example = "searchlight reference halfspace --material skin1 --walks 1e6 --radii-max 10 --bins 100 --json",
-        .options = {option::walks(1e6),
-                    {.name = "edges",
-                     .type = ParamType::numbers,
-                     .unit = "mm",
-                     .min = 0,
-                     .max = option::unlimited,
-                     .value = std::vector<double>{},
-                     .doc = "edges of the radial bins"},
-                    option::radiiMax(),
-                    option::bins(100),
-                    option::angle(),
-                    option::beam(),
-                    option::beamRadius(),
-                    option::grid("R(x, y)"),
-                    option::gridExtent(),
-                    {.name = "estimator",
-                     .type = ParamType::choice,
-                     .value = std::string("analogue"),
-                     .choices = {"analogue", "best"},
-                     .doc = "best: profiles and totals with far less noise, except for --grid and --beam"},
-                    {.name = "white",
-                     .type = ParamType::toggle,
-                     .value = false,
-                     .doc = "from a table of walks without absorption, kept on disk: a new sigma_a or sigma_s, up to "
-                            "albedo 0.9999, walks nothing"},
-                    {.name = "exact",
-                     .type = ParamType::toggle,
-                     .value = false,
-                     .doc =
-                         "solve without walks: eta 1, g 0, normal incidence; stderr then bounds the numerical error"},
-                    option::threads(),
-                    option::untilError("total and profile"),
-                    option::resume()},
-        .uses_material = true,
-        .uses_seed = true,
-        .shares_walks = true,
-        .output = "the JSON document",
-        .run = runReferenceHalfSpace};
+    return {.name = "reference halfspace",
+            .summary = "Walk the searchlight problem by unbiased Monte Carlo",
+            .example = "searchlight reference halfspace --material skin1 --walks 1e6 --radii-max 10 --bins 100 --json",
+            .options =
+                {option::walks(1e6),
+                 {.name = "edges",
+                  .type = ParamType::numbers,
+                  .unit = "mm",
+                  .min = 0,
+                  .max = option::unlimited,
+                  .value = std::vector<double>{},
+                  .doc = "edges of the radial bins"},
+                 option::radiiMax(),
+                 option::bins(100),
+                 option::angle(),
+                 option::beam(),
+                 option::beamRadius(),
+                 option::grid("R(x, y)"),
+                 option::gridExtent(),
+                 {.name = "estimator",
+                  .type = ParamType::choice,
+                  .value = std::string("best"),
+                  .choices = {"analogue", "best"},
+                  .doc = "analogue: nothing carries a weight; best: far less noise in the same time, analogue only for "
+                         "--grid and --beam"},
+                 {.name = "white",
+                  .type = ParamType::toggle,
+                  .value = false,
+                  .doc = "from a table of walks without absorption, kept on disk: a new sigma_a or sigma_s, up to "
+                         "albedo 0.9999, walks nothing"},
+                 {.name = "exact",
+                  .type = ParamType::toggle,
+                  .value = false,
+                  .doc = "solve without walks: eta 1, g 0, normal incidence; stderr then bounds the numerical error"},
+                 option::threads(),
+                 option::untilError("total and profile"),
+                 option::resume()},
+            .uses_material = true,
+            .uses_seed = true,
+            .shares_walks = true,
+            .output = "the JSON document",
+            .run = runReferenceHalfSpace};
 }
 
 }  // namespace searchlight
