@@ -216,7 +216,7 @@ HalfSpaceResult walkHalfSpace(const HalfSpaceProblem& problem, const HalfSpaceOp
     std::optional<BestPlan> best;
     if (result.estimator == Estimator::best) best.emplace(walk, edges);
     ChunkedWalk job;
-    job.plan = planChunks(options.walks);
+    job.plan = planChunks(options.walks, options.control.until_error > 0);
     if (options.control.state && !options.control.state->empty()) job.plan.size = options.control.state->chunk_size;
     job.threads = options.threads;
     job.enough = enoughFor(options.control.until_error, layout);

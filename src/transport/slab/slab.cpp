@@ -355,7 +355,7 @@ SlabResult walkSlab(const SlabProblem& problem, const SlabOptions& options, Obse
 
     const SlabWalk walk = walkOf(problem, entry);
     ChunkedWalk job;
-    job.plan = planChunks(options.walks);
+    job.plan = planChunks(options.walks, options.control.until_error > 0);
     if (options.control.state && !options.control.state->empty()) job.plan.size = options.control.state->chunk_size;
     job.threads = options.threads;
     job.enough = enoughFor(options.control.until_error, layout);
