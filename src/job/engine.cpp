@@ -16,6 +16,10 @@ gl::Context& Engine::context() {
     return *context_;
 }
 
+bool Engine::contextLost() { return context_ && context_->lost(); }
+
+void Engine::dropContext() { context_.reset(); }
+
 std::unique_ptr<Evaluator> Engine::makeEvaluator(const Model& model, std::string_view backend) {
     if (model.measured) return makeMeasuredEvaluator(model);
     const bool native = hasNativeEvaluator(model);

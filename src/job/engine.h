@@ -37,6 +37,12 @@ public:
 
     gl::Context& context();
 
+    /// There is a context, and it was lost.
+    bool contextLost();
+
+    /// The next context() is a new one. What was made in this one must be gone.
+    void dropContext();
+
 private:
     std::unique_ptr<gl::Context> context_;
 };

@@ -13,6 +13,7 @@
 #include "render/background.h"
 #include "render/coat.h"
 #include "render/shade.h"
+#include "render/stages_gl.h"
 
 namespace searchlight {
 
@@ -58,6 +59,7 @@ std::size_t defaultPointCount(double area_mm2, const Medium& medium) {
 struct Renderer::Impl {
     MaterialSource materials;
     gl::Context* context = nullptr;
+    std::optional<StagesGl> stages_gl;  // made when needed
     Scene scene;
     RenderSettings settings;
     RenderReport report;
@@ -83,9 +85,14 @@ struct Renderer::Impl {
     StageReport& stage(Stage which) { return report.stages[static_cast<std::size_t>(which)]; }
     std::uint64_t runs(Stage which) { return stage(which).runs; }
 
-    /// Runs `body` unless the stage was made from the same key.
+    StagesGl& onGl() {
+        if (!stages_gl) stages_gl.emplace(*context);
+        return *stages_gl;
+    }
+
+    /// Runs `body` unless the stage was made from the same key. `gl`: where it runs.
     template <class Body>
-    void refresh(Stage which, const std::string& key, const Body& body) {
+    void refresh(Stage which, const std::string& key, const Body& body, bool gl = false) {
         std::string& made_from = keys[static_cast<std::size_t>(which)];
         if (made_from == key) return;
         made_from.clear();
@@ -93,6 +100,7 @@ struct Renderer::Impl {
         body();
         stage(which).ms += milliseconds(begin);
         ++stage(which).runs;
+        stage(which).gl = gl;
         made_from = key;
     }
 
@@ -134,25 +142,30 @@ struct Renderer::Impl {
                                         .seed = settings.seed,
                                         .threads = settings.threads};
         const std::string key =
-            fmt::format("{} {} {} {} {} {} {}", runs(Stage::rays), runs(Stage::points), options.eta, options.beams,
-                        options.light_samples, options.seed, keyOf(scene, &Scene::lights));
-        refresh(Stage::irradiance, key, [&] {
-            irradiance =
-                computeIrradiance({points().positions, points().normals}, scene, object, &*rays, options, observer);
-        });
+            fmt::format("{} {} {} {} {} {} {} {}", settings.gl, runs(Stage::rays), runs(Stage::points), options.eta,
+                        options.beams, options.light_samples, options.seed, keyOf(scene, &Scene::lights));
+        const auto compute = [&] {
+            const SurfacePoints at{points().positions, points().normals};
+            irradiance = settings.gl ? onGl().irradiance(at, runs(Stage::points) + runs(Stage::object), scene, object,
+                                                         *rays, options, observer)
+                                     : computeIrradiance(at, scene, object, &*rays, options, observer);
+        };
+        refresh(Stage::irradiance, key, compute, settings.gl);
     }
 
     void refreshVisible(Observer& observer) {
         const int width = std::max(1, static_cast<int>(std::lround(settings.width * settings.preview)));
         const int height = std::max(1, static_cast<int>(std::lround(settings.height * settings.preview)));
-        const std::string key = fmt::format("{} {} {} {} {}", runs(Stage::rays), width, height, settings.edge_samples,
-                                            keyOf(scene, &Scene::camera));
-        refresh(Stage::visible, key, [&] {
+        const std::string key = fmt::format("{} {} {} {} {} {}", settings.gl, runs(Stage::rays), width, height,
+                                            settings.edge_samples, keyOf(scene, &Scene::camera));
+        const auto compute = [&] {
             report.camera = framedCamera(scene.camera, object, width, height);
             view = makeView(report.camera, object, width, height);
-            visible = traceVisible(view, object, *rays,
-                                   {.edge_samples = settings.edge_samples, .threads = settings.threads}, observer);
-        });
+            const TraceOptions options{.edge_samples = settings.edge_samples, .threads = settings.threads};
+            visible = settings.gl ? onGl().visible(view, object, runs(Stage::object), options, observer)
+                                  : traceVisible(view, object, *rays, options, observer);
+        };
+        refresh(Stage::visible, key, compute, settings.gl);
     }
 
     void startExitance(Observer& observer) {
@@ -168,7 +181,7 @@ struct Renderer::Impl {
             checkValue(param, options[param.name]);
             key += fmt::format(" {}", valueText(options[param.name]));
         }
-        refresh(Stage::exitance, key, [&] {
+        const auto begin = [&] {
             if (entry != &wanted || on_gl != settings.gl) technique = wanted.make(settings.gl ? context : nullptr);
             entry = &wanted;
             on_gl = settings.gl;
@@ -189,10 +202,13 @@ struct Renderer::Impl {
                                                  .view = runs(Stage::visible),
                                                  .material = runs(Stage::material)}};
             technique->start(input, options, observer);
-        });
+        };
+        refresh(Stage::exitance, key, begin, settings.gl && wanted.gl);
     }
 
     void start(Observer& observer) {
+        if (settings.gl && !context)
+            throw deviceError("OpenGL is asked for, and this renderer was made without a context");
         for (StageReport& each : report.stages) each.ms = 0;
         refreshObject();
         refreshMaterial();
@@ -230,7 +246,7 @@ struct Renderer::Impl {
         if (scene.coat)
             key = fmt::format("{} {} {} {}", runs(Stage::visible), settings.seed, material.medium.eta,
                               keyOf(scene, &Scene::lights, &Scene::coat));
-        refresh(Stage::coat, key, [&] {
+        const auto compute = [&] {
             coat.clear();
             if (!scene.coat) return;
             std::vector<Vec3f> wo;
@@ -240,7 +256,9 @@ struct Renderer::Impl {
                 {visible.positions, visible.normals, visible.geometric_normals, wo}, scene, object, &*rays,
                 {.eta = material.medium.eta, .seed = settings.seed, .threads = settings.threads, .context = context},
                 observer);
-        });
+        };
+        // Lights are gathered by rays in any case; a .brdf file is evaluated on OpenGL.
+        refresh(Stage::coat, key, compute, scene.coat && !scene.coat->brdf.empty());
     }
 
     const Image& image() {

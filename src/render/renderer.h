@@ -32,7 +32,7 @@ struct RenderSettings {
     ParamValues technique_options;  ///< by the names of its Params; absent: default
     int edge_samples = 8;           ///< rays through a pixel that an edge crosses
     int light_samples = 512;        ///< of an occluded environment
-    bool gl = false;                ///< the technique's version on the renderer's context
+    bool gl = false;                ///< irradiance, visible surface and technique on the renderer's context
     std::uint64_t seed = 1;
     int threads = 0;                          ///< 0: all
     std::optional<CacheFolder> points_cache;  ///< where points of a mesh are kept
@@ -46,6 +46,7 @@ std::string_view stageName(Stage stage);
 struct StageReport {
     std::uint64_t runs = 0;  ///< since the renderer was made
     double ms = 0;           ///< of the last render(); 0: nothing to do
+    bool gl = false;         ///< the last run was on OpenGL
 };
 
 struct RenderReport {
@@ -71,6 +72,7 @@ public:
     void setSettings(RenderSettings settings);
 
     /// The final picture: start(), step() until true, image(). Throws Error; a stage that threw is redone next time.
+    /// After a device Error of a context that is lost() the renderer is of no more use: another takes its place.
     Image render(Observer& observer);
 
     /// Brings every stage before the exitance up to date and begins that one.
