@@ -69,6 +69,8 @@ struct Renderer::Impl {
     RenderMaterial material;
     std::optional<Profile> profile;
     PointCloud sampled;  // of a mesh; a cloud is its own points
+    LitPoints lit;       // the points as shadow rays see them, for every light
+    std::string lit_from;
     Irradiance irradiance;
     View view;
     VisibleSurface visible;
@@ -78,6 +80,7 @@ struct Renderer::Impl {
     bool final = false;
     std::uint64_t slices = 0;  // of the exitance: each makes a new picture
     Image background, picture;
+    std::vector<Rgbf> radiance;
     std::vector<Rgbf> coat;  // radiance per sample; empty without a coat
 
     StageReport& stage(Stage which) { return report.stages[static_cast<std::size_t>(which)]; }
@@ -137,8 +140,14 @@ struct Renderer::Impl {
             fmt::format("{} {} {} {} {} {} {}", runs(Stage::rays), runs(Stage::points), options.eta, options.beams,
                         options.light_samples, options.seed, keyOf(scene, &Scene::lights));
         refresh(Stage::irradiance, key, [&] {
-            irradiance =
-                computeIrradiance({points().positions, points().normals}, scene, object, &*rays, options, observer);
+            const std::string of = fmt::format("{} {}", runs(Stage::rays), runs(Stage::points));
+            if (lit_from != of) {
+                lit_from.clear();
+                lit = prepareLitPoints({points().positions, points().normals}, object, &*rays, options.normals,
+                                       options.threads, observer);
+                lit_from = of;
+            }
+            irradiance = computeIrradiance(lit, scene, object, &*rays, options, observer);
         });
     }
 
@@ -247,10 +256,9 @@ struct Renderer::Impl {
         refresh(Stage::shade,
                 fmt::format("{} {} {} {}", runs(Stage::exitance), slices, runs(Stage::background), runs(Stage::coat)),
                 [&] {
-                    const std::vector<Rgbf> radiance =
-                        exitRadiance(visible, technique->exitance(), material.medium.eta, settings.threads);
+                    exitRadiance(visible, technique->exitance(), material.medium.eta, settings.threads, radiance);
                     report.exposure = displayExposure(visible, radiance);
-                    picture = composite(visible, radiance, coat, background);
+                    composite(visible, radiance, coat, background, settings.threads, picture);
                 });
         return picture;
     }
@@ -283,7 +291,7 @@ Renderer::~Renderer() = default;
 void Renderer::setScene(Scene scene) { impl_->scene = std::move(scene); }
 void Renderer::setSettings(RenderSettings settings) { impl_->settings = std::move(settings); }
 
-Image Renderer::render(Observer& observer) {
+const Image& Renderer::render(Observer& observer) {
     start(observer);
     while (!step(observer)) {
     }
