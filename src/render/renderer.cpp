@@ -13,6 +13,7 @@
 #include "render/background.h"
 #include "render/coat.h"
 #include "render/shade.h"
+#include "render/visible_raster.h"
 
 namespace searchlight {
 
@@ -73,6 +74,7 @@ struct Renderer::Impl {
     std::string lit_from;
     Irradiance irradiance;
     View view;
+    VisibleRaster raster;
     VisibleSurface visible;
     const TechniqueEntry* entry = nullptr;
     bool on_gl = false;
@@ -159,8 +161,8 @@ struct Renderer::Impl {
         refresh(Stage::visible, key, [&] {
             report.camera = framedCamera(scene.camera, object, width, height);
             view = makeView(report.camera, object, width, height);
-            visible = traceVisible(view, object, *rays,
-                                   {.edge_samples = settings.edge_samples, .threads = settings.threads}, observer);
+            raster.find(view, object, {.edge_samples = settings.edge_samples, .threads = settings.threads}, observer,
+                        visible);
         });
     }
 
