@@ -1,6 +1,6 @@
 // What a frame costs while something moves: the camera, the light, the material. 1280 x 720, hierarchical, CPU.
 //
-//   frames_bench [--frames N] [--meshes FOLDER]
+//   frames_bench [--frames N] [--meshes FOLDER] [--changes camera|light|material]
 //
 // Wall time, median of the frames after the first of each kind, by stage. With the folder of meshes also the objects of
 // the table in [Bitterli2013], with as many points; the light is kept while the camera moves, as there.
@@ -114,36 +114,41 @@ void line(const std::string& object, const char* what, const Frames& frames, Tim
     std::fflush(stdout);
 }
 
-void run(const std::string& name, const Scene& scene, std::size_t points, int count) {
+void run(const std::string& name, const Scene& scene, std::size_t points, int count, const std::string& only) {
     Frames frames(scene, points);
     line(name, "first", frames, frames.frame());
-    line(name, "camera", frames, frames.median(count, [](Scene& s) { s.camera.azimuth_deg += 1; }));
-    line(name, "light", frames, frames.median(count, [angle = 0.0](Scene& s) mutable {
-        angle += 0.02;
-        s.lights = {DirectionalLight{.direction = {std::sin(angle), 1, std::cos(angle)}}};
-    }));
-    line(name, "material", frames, frames.median(count, [](Scene& s) { s.material.scale *= 1.01; }));
+    const auto wanted = [&](const char* change) { return only.empty() || only == change; };
+    if (wanted("camera"))
+        line(name, "camera", frames, frames.median(count, [](Scene& s) { s.camera.azimuth_deg += 1; }));
+    if (wanted("light"))
+        line(name, "light", frames, frames.median(count, [angle = 0.0](Scene& s) mutable {
+            angle += 0.02;
+            s.lights = {DirectionalLight{.direction = {std::sin(angle), 1, std::cos(angle)}}};
+        }));
+    if (wanted("material"))
+        line(name, "material", frames, frames.median(count, [](Scene& s) { s.material.scale *= 1.01; }));
 }
 
 int main(int argc, char** argv) {
     int count = 9;
-    std::string folder;
+    std::string folder, only;
     for (int i = 1; i + 1 < argc; i += 2) {
         if (!std::strcmp(argv[i], "--frames")) count = std::atoi(argv[i + 1]);
         if (!std::strcmp(argv[i], "--meshes")) folder = argv[i + 1];
+        if (!std::strcmp(argv[i], "--changes")) only = argv[i + 1];
     }
     head();
     for (const char* material : {"skin1", "marble"}) {
         Scene scene;
         scene.material.id = material;
-        run(fmt::format("sphere {}", material), scene, 0, count);
+        run(fmt::format("sphere {}", material), scene, 0, count, only);
     }
     if (folder.empty()) return 0;
     for (const Row& row : thesis_rows) {
         Scene scene;
         scene.object = (std::filesystem::path(folder) / row.file).string();
         scene.scale = 50;
-        run(fmt::format("{} {}", std::string(row.file).substr(0, 8), row.thesis_ms), scene, row.points, count);
+        run(fmt::format("{} {}", std::string(row.file).substr(0, 8), row.thesis_ms), scene, row.points, count, only);
     }
     return 0;
 }

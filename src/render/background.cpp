@@ -24,12 +24,7 @@ class Painter {
 public:
     Painter(const View& view, const Scene& scene, const Object& object, const RayScene* rays,
             const BackgroundOptions& options, Observer& observer)
-        : view_(view),
-          scene_(scene),
-          object_(object),
-          rays_(rays),
-          options_(options),
-          observer_(observer) {}
+        : view_(view), scene_(scene), object_(object), rays_(rays), options_(options), observer_(observer) {}
 
     Image run(const VisibleSurface& visible) {
         const bool surrounded = std::ranges::any_of(
