@@ -14,6 +14,7 @@
 #include "render/coat.h"
 #include "render/shade.h"
 #include "render/stages_gl.h"
+#include "render/visible_raster.h"
 
 namespace searchlight {
 
@@ -71,8 +72,11 @@ struct Renderer::Impl {
     RenderMaterial material;
     std::optional<Profile> profile;
     PointCloud sampled;  // of a mesh; a cloud is its own points
+    LitPoints lit;       // the points as shadow rays see them, for every light
+    std::string lit_from;
     Irradiance irradiance;
     View view;
+    VisibleRaster raster;
     VisibleSurface visible;
     const TechniqueEntry* entry = nullptr;
     bool on_gl = false;
@@ -80,6 +84,7 @@ struct Renderer::Impl {
     bool final = false;
     std::uint64_t slices = 0;  // of the exitance: each makes a new picture
     Image background, picture;
+    std::vector<Rgbf> radiance;
     std::vector<Rgbf> coat;  // radiance per sample; empty without a coat
 
     StageReport& stage(Stage which) { return report.stages[static_cast<std::size_t>(which)]; }
@@ -146,9 +151,18 @@ struct Renderer::Impl {
                         options.beams, options.light_samples, options.seed, keyOf(scene, &Scene::lights));
         const auto compute = [&] {
             const SurfacePoints at{points().positions, points().normals};
-            irradiance = settings.gl ? onGl().irradiance(at, runs(Stage::points) + runs(Stage::object), scene, object,
-                                                         *rays, options, observer)
-                                     : computeIrradiance(at, scene, object, &*rays, options, observer);
+            if (settings.gl) {
+                irradiance = onGl().irradiance(at, runs(Stage::points) + runs(Stage::object), scene, object, *rays,
+                                               options, observer);
+                return;
+            }
+            const std::string of = fmt::format("{} {}", runs(Stage::rays), runs(Stage::points));
+            if (lit_from != of) {
+                lit_from.clear();
+                lit = prepareLitPoints(at, object, &*rays, options.normals, options.threads, observer);
+                lit_from = of;
+            }
+            irradiance = computeIrradiance(lit, scene, object, &*rays, options, observer);
         };
         refresh(Stage::irradiance, key, compute, settings.gl);
     }
@@ -162,8 +176,10 @@ struct Renderer::Impl {
             report.camera = framedCamera(scene.camera, object, width, height);
             view = makeView(report.camera, object, width, height);
             const TraceOptions options{.edge_samples = settings.edge_samples, .threads = settings.threads};
-            visible = settings.gl ? onGl().visible(view, object, runs(Stage::object), options, observer)
-                                  : traceVisible(view, object, *rays, options, observer);
+            if (settings.gl)
+                visible = onGl().visible(view, object, runs(Stage::object), options, observer);
+            else
+                raster.find(view, object, options, observer, visible);
         };
         refresh(Stage::visible, key, compute, settings.gl);
     }
@@ -265,10 +281,9 @@ struct Renderer::Impl {
         refresh(Stage::shade,
                 fmt::format("{} {} {} {}", runs(Stage::exitance), slices, runs(Stage::background), runs(Stage::coat)),
                 [&] {
-                    const std::vector<Rgbf> radiance =
-                        exitRadiance(visible, technique->exitance(), material.medium.eta, settings.threads);
+                    exitRadiance(visible, technique->exitance(), material.medium.eta, settings.threads, radiance);
                     report.exposure = displayExposure(visible, radiance);
-                    picture = composite(visible, radiance, coat, background);
+                    composite(visible, radiance, coat, background, settings.threads, picture);
                 });
         return picture;
     }
@@ -301,7 +316,7 @@ Renderer::~Renderer() = default;
 void Renderer::setScene(Scene scene) { impl_->scene = std::move(scene); }
 void Renderer::setSettings(RenderSettings settings) { impl_->settings = std::move(settings); }
 
-Image Renderer::render(Observer& observer) {
+const Image& Renderer::render(Observer& observer) {
     start(observer);
     while (!step(observer)) {
     }

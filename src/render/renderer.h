@@ -71,9 +71,10 @@ public:
     void setScene(Scene scene);
     void setSettings(RenderSettings settings);
 
-    /// The final picture: start(), step() until true, image(). Throws Error; a stage that threw is redone next time.
-    /// After a device Error of a context that is lost() the renderer is of no more use: another takes its place.
-    Image render(Observer& observer);
+    /// The final picture: start(), step() until true, image(). It stays until the next call that draws. Throws Error; a
+    /// stage that threw is redone next time. After a device Error of a context that is lost() the renderer is of no more
+    /// use: another takes its place.
+    const Image& render(Observer& observer);
 
     /// Brings every stage before the exitance up to date and begins that one.
     void start(Observer& observer);
