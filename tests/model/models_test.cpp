@@ -32,8 +32,9 @@ TEST(ShippedModels, AreAllThere) {
         EXPECT_TRUE(hasNativeEvaluator(model)) << model.id;
         EXPECT_FALSE(model.file.title.empty() || model.file.citation.empty() || model.file.validity.empty());
     }
-    EXPECT_THAT(ids, testing::UnorderedElementsAre("better_dipole", "dipole", "directional_dipole", "gaussians",
-                                                   "normalized_diffusion"));
+    EXPECT_THAT(ids,
+                testing::UnorderedElementsAre("better_dipole", "dipole", "directional_dipole",
+                                              "directional_dipole_reciprocal", "gaussians", "normalized_diffusion"));
 }
 
 // The trapezoidal sum is good to 1e-11 where the integrand is analytic.
