@@ -28,6 +28,8 @@ HalfSpaceOptions options(std::uint64_t walks) {
     o.edges_mm = {0, 0.01, 0.1, 0.3, 1, 3};
     o.grid = 8;
     o.grid_extent_mm = 2;
+    o.strip_edges_mm = {-2, -1, -0.5, 0, 0.5, 2};
+    o.strip_half_width_mm = 0.5;
     return o;
 }
 
@@ -38,8 +40,8 @@ std::vector<double> numbers(const HalfSpaceResult& result) {
     for (const HalfSpaceTally* tally : {&result.all, &result.single, &result.multiple}) {
         for (const Estimate& e : {tally->total, tally->mean_x_mm, tally->mean_r2_mm2})
             all.insert(all.end(), {e.mean, e.standard_error});
-        for (const auto* list :
-             {&tally->Rd, &tally->standard_error, &tally->beyond, &tally->grid, &tally->grid_standard_error})
+        for (const auto* list : {&tally->Rd, &tally->standard_error, &tally->beyond, &tally->grid,
+                                 &tally->grid_standard_error, &tally->strip, &tally->strip_standard_error})
             all.insert(all.end(), list->begin(), list->end());
     }
     return all;
@@ -66,6 +68,32 @@ TEST(HalfSpace, ResultDoesNotDependOnThreads) {
         o.seed = 2;
         EXPECT_NE(numbers(one), numbers(walkHalfSpace(problem, o, observer)));
     }
+}
+
+TEST(HalfSpace, StripIsTheMiddleOfTheGrid) {
+    Observer observer;
+    // Cells of the grid are half a mm wide; the strip holds its rows 3 and 4.
+    const HalfSpaceResult result = walkHalfSpace(problems[3], options(100'000), observer);
+    for (const HalfSpaceTally* tally : {&result.all, &result.single, &result.multiple}) {
+        ASSERT_EQ(tally->strip.size(), 5u);
+        const auto column = [&](std::size_t i) { return 0.5 * (tally->grid[8 * 3 + i] + tally->grid[8 * 4 + i]); };
+        const std::vector<double> expected{0.5 * (column(0) + column(1)), column(2), column(3), column(4),
+                                           (column(5) + column(6) + column(7)) / 3};
+        // The same counts divided by the same areas.
+        for (std::size_t i = 0; i < 5; ++i) EXPECT_NEAR(tally->strip[i], expected[i], 1e-12 * expected[i]) << i;
+    }
+    // Standard errors of what a beam moves: more on the side that it leans to.
+    EXPECT_GT(result.all.strip[3] - result.all.strip[2], 3 * result.all.strip_standard_error[3]);
+}
+
+TEST(HalfSpace, RefusesImpossibleStrips) {
+    Observer observer;
+    HalfSpaceOptions o = options(100);
+    o.strip_half_width_mm = 0;
+    EXPECT_THROW(walkHalfSpace(problems[0], o, observer), Error);
+    o = options(100);
+    o.strip_edges_mm = {0, 0};
+    EXPECT_THROW(walkHalfSpace(problems[0], o, observer), Error);
 }
 
 TEST(HalfSpace, Avx2AndAvx512AgreeBitForBit) {

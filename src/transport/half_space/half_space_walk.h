@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "transport/half_space/radiance_tally.h"
 #include "transport/walk/beam.h"
 #include "transport/walk/tally.h"
 
@@ -24,6 +25,9 @@ struct HalfSpaceWalk {
 /// number of collisions.
 std::uint64_t walkHalfSpaceChunk(const HalfSpaceWalk& walk, std::uint64_t seed, std::uint64_t chunk,
                                  std::uint64_t walks, ExitTally& tally);
+/// The same walks, counted by where and whither they leave.
+std::uint64_t walkHalfSpaceChunk(const HalfSpaceWalk& walk, std::uint64_t seed, std::uint64_t chunk,
+                                 std::uint64_t walks, RadianceTally& tally);
 
 /// The instruction set that walkHalfSpaceChunk uses: "AVX3", "AVX2", "SSE4"...
 const char* halfSpaceInstructionSet();
