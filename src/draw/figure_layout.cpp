@@ -60,8 +60,11 @@ void drawFactor(std::vector<Shape>& shapes, Point at, int exponent) {
 
 Drawing layoutFigure(const Figure& figure) {
     const FigureRange range = figureRange(figure);
-    const AxisTicks x_ticks = axisTicks(figure.x.scale, range.x_min, range.x_max, 7);
-    const AxisTicks y_ticks = axisTicks(figure.y.scale, range.y_min, range.y_max, 6);
+    const auto ticksOf = [](const Axis& axis, double min, double max, int target) {
+        return axis.names.empty() ? axisTicks(axis.scale, min, max, target) : namedTicks(axis.names);
+    };
+    const AxisTicks x_ticks = ticksOf(figure.x, range.x_min, range.x_max, 7);
+    const AxisTicks y_ticks = ticksOf(figure.y, range.y_min, range.y_max, 6);
 
     double tick_labels = 0;
     for (const Tick& tick : y_ticks.ticks) tick_labels = std::max(tick_labels, labelWidth(tick));
