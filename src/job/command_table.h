@@ -22,6 +22,7 @@ Command plotPencilCommand();
 Command plotErrorCommand();
 Command plotAlbedoCommand();
 Command compareCommand();
+Command rankCommand();
 Command checkCommand();
 Command reportCommand();
 Command benchTransportCommand();

@@ -23,6 +23,7 @@ std::span<const Command> commands() {
         plotErrorCommand(),
         plotAlbedoCommand(),
         compareCommand(),
+        rankCommand(),
         checkCommand(),
         reportCommand(),
         benchTransportCommand(),
