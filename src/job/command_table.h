@@ -9,6 +9,7 @@ Command modelsCommand();
 Command materialsCommand();
 Command profileCommand();
 Command invertCommand();
+Command convertCommand();
 Command referenceHalfSpaceCommand();
 Command referenceSlabCommand();
 Command referenceSphereCommand();

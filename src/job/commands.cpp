@@ -10,6 +10,7 @@ std::span<const Command> commands() {
         materialsCommand(),
         profileCommand(),
         invertCommand(),
+        convertCommand(),
         referenceHalfSpaceCommand(),
         referenceSlabCommand(),
         referenceSphereCommand(),
