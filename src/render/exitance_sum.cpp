@@ -87,11 +87,11 @@ public:
             if (keeps) calibration = *judged;
             for (int c = 0; c < Rgb::channels; ++c) {
                 if (!matters(input_, c)) continue;
-                // As in the pilot. While the error is kept, the opening follows only where half as much again would
-                // do: samples differ, and what is near the limit would be summed twice now and then.
+                // As in the pilot. While the error is kept, the opening follows only where a third more would do:
+                // samples differ, and what is near the limit would be summed twice now and then.
                 const double ratio = input_.error / std::max(bounds[c], 1e-30);
-                if (keeps ? ratio > 1.5 : ratio < 1.15)
-                    opening[c] = std::min(most[c], opening[c] * std::clamp(0.8 * ratio, 1.0 / 64, 2.0));
+                if (keeps ? ratio > 1.35 : ratio < 1.15)
+                    opening[c] = std::min(most[c], opening[c] * std::clamp(0.85 * ratio, 1.0 / 64, 2.0));
             }
             if (keeps) {
                 calibration.next = opening;

@@ -65,8 +65,8 @@ TEST(Shade, ExposureBringsTheBrightPartsNearWhite) {
     VisibleSurface visible = seenUnder(std::vector<double>(100, 1.0));
     std::vector<Rgbf> radiance(100, Rgbf{0.05f, 0.1f, 0.1f});
     radiance[7] = {50, 50, 50};  // a highlight that may burn out
-    EXPECT_NEAR(displayExposure(visible, radiance), 3, 1e-5);
-    EXPECT_EQ(displayExposure(visible, std::vector<Rgbf>(100)), 0);
+    EXPECT_NEAR(displayExposure(visible, radiance, 0), 3, 1e-5);
+    EXPECT_EQ(displayExposure(visible, std::vector<Rgbf>(100), 0), 0);
 }
 
 }  // namespace
