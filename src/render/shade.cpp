@@ -47,9 +47,10 @@ HWY_INLINE FloatV dotOf(const Vectors& a, const Vectors& b) {
 // where the medium is the thinner one, is a cosine of 0 inside.
 HWY_INLINE FloatV transmittance(FloatV cosine, float ratio) {
     const Float d;
-    const FloatV r = hn::Set(d, ratio), one = hn::Set(d, 1.0f);
-    const FloatV sine_square = hn::NegMulAdd(cosine, cosine, one);
-    const FloatV inside = hn::Sqrt(hn::Max(hn::Zero(d), hn::NegMulAdd(hn::Mul(r, r), sine_square, one)));
+    const FloatV r = hn::Set(d, ratio), square = hn::Mul(cosine, cosine);
+    // 1 - r^2 (1 - cosine^2), where nothing cancels for matched media.
+    const FloatV inside =
+        hn::Sqrt(hn::Max(hn::Zero(d), hn::MulAdd(hn::Mul(r, r), square, hn::Set(d, (1 - ratio) * (1 + ratio)))));
     const FloatV s = hn::MulAdd(r, cosine, inside), p = hn::MulAdd(r, inside, cosine);
     const FloatV product = hn::Mul(hn::Mul(hn::Set(d, 2 * ratio), cosine), inside);
     // 1e-30: at a cosine of 0 of matched media both sums are 0.
