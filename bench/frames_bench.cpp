@@ -139,12 +139,14 @@ int main(int argc, char** argv) {
     }
     head();
     for (const char* material : {"skin1", "marble"}) {
+        if (!folder.empty()) break;
         Scene scene;
         scene.material.id = material;
         run(fmt::format("sphere {}", material), scene, 0, count, only);
     }
     if (folder.empty()) return 0;
     for (const Row& row : thesis_rows) {
+        if (!std::filesystem::exists(std::filesystem::path(folder) / row.file)) continue;
         Scene scene;
         scene.object = (std::filesystem::path(folder) / row.file).string();
         scene.scale = 50;

@@ -62,6 +62,7 @@ public:
                   observer_},
                  input_.threads, memory_.sums);
         found_.sum_ms += millisecondsSince(start);
+        ++found_.taken;
     }
 
     /// With an opening that was found for something else, and judged afterwards: it is taken again where the error is
@@ -71,37 +72,52 @@ public:
         Rgb opening;
         for (int c = 0; c < Rgb::channels; ++c) {
             if (!matters(input_, c)) continue;
-            if (!(calibration.opening[c] > 0)) return false;
-            opening[c] = std::min(most[c], calibration.opening[c]);
+            if (!(calibration.next[c] > 0)) return false;
+            opening[c] = std::min(most[c], calibration.next[c]);
         }
         if (opening == Rgb{}) return false;
+        double since_drawn = 0;  // by how much the opening fell since the sample was drawn
         for (int attempt = 0; attempt < 3; ++attempt) {
             take({.opening = opening});
             const auto start = Clock::now();
-            if (attempt == 0) memory_.audit.draw(input_, memory_.sums, opening, memory_.openings);
+            // A sum that was far off says little about where to look, and its reference may be off as well.
+            if (since_drawn < 0.5) memory_.audit.draw(input_, memory_.sums, opening, memory_.openings), since_drawn = 1;
             Rgb bounds;
-            const auto judged = memory_.audit.judged(input_, memory_.sums, opening, bounds);
+            const SumCalibration judged = memory_.audit.judged(input_, memory_.sums, opening, bounds);
             found_.pilot_ms += millisecondsSince(start);
-            if (!judged) return false;
-            const bool keeps = judged->error_bound <= input_.error;
-            if (keeps) calibration = *judged;
-            for (int c = 0; c < Rgb::channels; ++c) {
-                if (!matters(input_, c)) continue;
-                // As in the pilot. While the error is kept, the opening follows only where half as much again would
-                // do: samples differ, and what is near the limit would be summed twice now and then.
-                const double ratio = input_.error / std::max(bounds[c], 1e-30);
-                if (keeps ? ratio > 1.5 : ratio < 1.15)
-                    opening[c] = std::min(most[c], opening[c] * std::clamp(0.8 * ratio, 1.0 / 64, 2.0));
-            }
-            if (keeps) {
-                calibration.next = opening;
+            if (judged.error_bound <= input_.error) {
+                calibration = judged;
+                calibration.next = attempt == 0 ? wider(opening, bounds, most) : opening;
                 return true;
+            }
+            for (int c = 0; c < Rgb::channels; ++c) {
+                const double ratio = input_.error / std::max(bounds[c], 1e-30);
+                if (!matters(input_, c) || ratio > 1 / aim) continue;
+                const double factor = std::max(aim * ratio, 1.0 / 64);
+                opening[c] *= factor;
+                since_drawn = std::min(since_drawn, factor);
             }
         }
         return false;
     }
 
 private:
+    // The part of the error asked for at which an opening aims: samples differ, and what is near the limit would be
+    // summed twice now and then.
+    static constexpr double aim = 0.8;
+
+    // What to begin with the next time, where the error turned out less than that. None where the opening says nothing
+    // about it: a pilot has to find one.
+    Rgb wider(Rgb opening, Rgb bounds, Rgb most) const {
+        for (int c = 0; c < Rgb::channels; ++c) {
+            if (!matters(input_, c) || opening[c] >= most[c]) continue;
+            const double ratio = input_.error / std::max(bounds[c], 1e-30);
+            if (ratio > 8) return {};
+            if (ratio > 1.45) opening[c] = std::min(most[c], opening[c] * aim * ratio);
+        }
+        return opening;
+    }
+
     const PilotInput& input_;
     SumMemory::Impl& memory_;
     Observer* observer_;
@@ -130,10 +146,10 @@ void sumExitance(const PointTree& points, const RadialTable& table, const Receiv
             found.calibrated = true;
             // Where an earlier sum was, the same opening most likely does. A sum that is cancelled leaves what was.
             SumCalibration tried = calibration;
-            if (tried.next != Rgb{}) tried.opening = tried.next;
-            if (tried.opening == Rgb{} || !sum.takeAndJudge(tried)) {
+            if (!sum.takeAndJudge(tried)) {
                 const auto start = Clock::now();
-                tried = calibrate(input, tried.opening);
+                tried = calibrate(input, calibration.opening);
+                tried.next = tried.opening;
                 found.pilot_ms += millisecondsSince(start);
                 sum.take(tried);
             }

@@ -82,7 +82,7 @@ private:
 struct SumCalibration {
     std::uint64_t key = 0;   ///< of what it was found for; 0: nothing yet
     Rgb opening;             ///< the parameter of the acceptance test, per channel
-    Rgb next;                ///< what to begin with when something has changed; 0: the same
+    Rgb next;                ///< what to begin with when something has changed; 0: what a pilot finds
     double error_bound = 0;  ///< as in SumStatistics
     double largest_error_bound = 0;
 };
@@ -119,7 +119,8 @@ struct SumStatistics {
     /// Of the largest error of a receiver, relative to the RMS exitance: extrapolated from a sample, so an estimate.
     double largest_error_bound = 0;
     double tree_ms = 0, pilot_ms = 0, sum_ms = 0;  ///< pilot: or what judged the sum afterwards
-    bool calibrated = false;                       ///< false: the calibration that was given was used as it is
+    int taken = 0;            ///< how often the sum was taken: once, unless what was kept did not keep the error
+    bool calibrated = false;  ///< false: the calibration that was given was used as it is
 };
 
 /// Exitance per receiver, in their order: the sum of R_d(|xo - xi|) flux_i area_i over the points. The result does not

@@ -73,7 +73,7 @@ struct Renderer::Impl {
     std::optional<Profile> profile;
     PointCloud sampled;  // of a mesh; a cloud is its own points
     LitPoints lit;       // the points as shadow rays see them, for every light
-    std::string lit_from;
+    std::string lit_from, spacing_from;
     Irradiance irradiance;
     View view;
     VisibleRaster raster;
@@ -282,7 +282,7 @@ struct Renderer::Impl {
                 fmt::format("{} {} {} {}", runs(Stage::exitance), slices, runs(Stage::background), runs(Stage::coat)),
                 [&] {
                     exitRadiance(visible, technique->exitance(), material.medium.eta, settings.threads, radiance);
-                    report.exposure = displayExposure(visible, radiance);
+                    report.exposure = displayExposure(visible, radiance, settings.threads);
                     composite(visible, radiance, coat, background, settings.threads, picture);
                 });
         return picture;
@@ -291,8 +291,11 @@ struct Renderer::Impl {
     void describe() {
         report.points = points().positions.size();
         report.receivers = visible.positions.size();
-        const double area = std::accumulate(points().areas.begin(), points().areas.end(), 0.0);
-        report.point_spacing_mm = std::sqrt(area / static_cast<double>(report.points));
+        if (const std::string of = fmt::format("{} {}", runs(Stage::points), runs(Stage::object)); spacing_from != of) {
+            const double area = std::accumulate(points().areas.begin(), points().areas.end(), 0.0);
+            report.point_spacing_mm = std::sqrt(area / static_cast<double>(report.points));
+            spacing_from = of;
+        }
         report.notes = object.notes;
         const Medium& medium = material.medium;
         for (int c = 0; c < medium.channels; ++c) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <numeric>
 
 #include "base/parallel.h"
 #include "model/physics.h"
@@ -46,9 +47,10 @@ HWY_INLINE FloatV dotOf(const Vectors& a, const Vectors& b) {
 // where the medium is the thinner one, is a cosine of 0 inside.
 HWY_INLINE FloatV transmittance(FloatV cosine, float ratio) {
     const Float d;
-    const FloatV r = hn::Set(d, ratio), one = hn::Set(d, 1.0f);
-    const FloatV sine_square = hn::NegMulAdd(cosine, cosine, one);
-    const FloatV inside = hn::Sqrt(hn::Max(hn::Zero(d), hn::NegMulAdd(hn::Mul(r, r), sine_square, one)));
+    const FloatV r = hn::Set(d, ratio), square = hn::Mul(cosine, cosine);
+    // 1 - r^2 (1 - cosine^2), where nothing cancels for matched media.
+    const FloatV inside =
+        hn::Sqrt(hn::Max(hn::Zero(d), hn::MulAdd(hn::Mul(r, r), square, hn::Set(d, (1 - ratio) * (1 + ratio)))));
     const FloatV s = hn::MulAdd(r, cosine, inside), p = hn::MulAdd(r, inside, cosine);
     const FloatV product = hn::Mul(hn::Mul(hn::Set(d, 2 * ratio), cosine), inside);
     // 1e-30: at a cosine of 0 of matched media both sums are 0.
@@ -129,24 +131,29 @@ void exitRadiance(const VisibleSurface& visible, std::span<const Rgbf> exitance,
     });
 }
 
-double displayExposure(const VisibleSurface& visible, std::span<const Rgbf> radiance) {
+double displayExposure(const VisibleSurface& visible, std::span<const Rgbf> radiance, int threads) {
     constexpr double brighter = 0.02, white = 0.8;
-    // Positive floats are in the order of their bits: coverage by sign-less exponent and 4 bits of the mantissa, and
-    // only the bin in which the 2 % are reached is sorted.
+    // Positive floats are in the order of their bits: coverage is added up by the exponent and four bits of the
+    // mantissa, and only the bin in which the 2 % are reached is sorted.
     constexpr int shift = 19;
     const auto binOf = [](float value) { return value > 0 ? std::bit_cast<std::uint32_t>(value) >> shift : 0u; };
+    const std::size_t n = radiance.size(), parts = (n + grain - 1) / grain;
+    std::vector<std::vector<float>> counted(parts);
+    parallelFor(parts, threads, [&](std::size_t part) {
+        counted[part].resize((0x80000000u >> shift) + 1);
+        for (std::size_t i = part * grain; i < std::min(n, (part + 1) * grain); ++i)
+            counted[part][binOf(brightest(radiance[i]))] += visible.coverage[i];
+    });
     std::vector<double> bins((0x80000000u >> shift) + 1);
-    double total = 0;
-    for (std::size_t i = 0; i < radiance.size(); ++i) {
-        bins[binOf(brightest(radiance[i]))] += static_cast<double>(visible.coverage[i]);
-        total += static_cast<double>(visible.coverage[i]);
-    }
+    for (const std::vector<float>& part : counted)
+        for (std::size_t bin = 0; bin < bins.size(); ++bin) bins[bin] += static_cast<double>(part[bin]);
+    const double total = std::accumulate(bins.begin(), bins.end(), 0.0);
     double seen = 0;
     std::size_t bin = bins.size() - 1;
     while (bin > 0 && seen + bins[bin] < brighter * total) seen += bins[bin--];
     if (bin == 0) return 0;
     std::vector<std::pair<float, float>> values;  // and coverage
-    for (std::size_t i = 0; i < radiance.size(); ++i)
+    for (std::size_t i = 0; i < n; ++i)
         if (const float value = brightest(radiance[i]); binOf(value) == bin)
             values.emplace_back(value, visible.coverage[i]);
     std::ranges::sort(values, std::greater{});

@@ -17,7 +17,7 @@ void exitRadiance(const VisibleSurface& visible, std::span<const Rgbf> exitance,
 
 /// Stops that bring the radiance that 2 % of the object exceed to 0.8, near the white of a display; 0 for a dark
 /// object.
-double displayExposure(const VisibleSurface& visible, std::span<const Rgbf> radiance);
+double displayExposure(const VisibleSurface& visible, std::span<const Rgbf> radiance, int threads);
 
 /// The samples by their coverage over `background`, which has the size of `visible` or is empty: nothing is behind.
 /// `coat` is added to `radiance`; it is as long, or empty. What is negative becomes 0. `picture` keeps its memory.

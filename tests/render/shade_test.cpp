@@ -1,7 +1,11 @@
 #include "render/shade.h"
 
+#include <hwy/highway.h>
+
 #include <cmath>
 #include <numbers>
+
+#include "model/physics.h"
 
 namespace searchlight {
 namespace {
@@ -44,6 +48,28 @@ TEST(Shade, RadianceOverTheHemisphereIsExitance) {
     }
 }
 
+TEST(Shade, TransmittanceIsFresnelsUpToGrazingAngles) {
+    // Float in a product without differences: some roundings. 37 samples end within a vector.
+    std::vector<double> cosines;
+    for (int i = 0; i < 37; ++i) cosines.push_back(std::pow(10.0, -i / 8.0));
+    for (const std::int64_t target : {HWY_AVX3, HWY_AVX2, HWY_SSE4}) {
+        if ((hwy::SupportedTargets() & target) == 0) continue;
+        hwy::SetSupportedTargetsForTest(target);
+        for (const double eta : {1.0, 1.3, 1.5, 1 / 1.3}) {
+            std::vector<Rgbf> radiance;
+            exitRadiance(seenUnder(cosines), std::vector<Rgbf>(cosines.size(), Rgbf{1, 1, 1}), eta, 1, radiance);
+            const double normalizer = std::numbers::pi * (1 - 2 * Physics<double>::fresnelMoment(1, 1 / eta));
+            for (std::size_t i = 0; i < cosines.size(); ++i) {
+                const double expected = (1 - Physics<double>::fresnelReflectance(cosines[i], 1 / eta)) / normalizer;
+                // The cosine itself is rounded by 1e-7: near total reflection T21 goes as the root of the rest.
+                EXPECT_NEAR(radiance[i].g, expected, 2e-5 * expected + (eta < 1 ? 1e-3 : 1e-7))
+                    << eta << " " << cosines[i];
+            }
+        }
+        hwy::SetSupportedTargetsForTest(0);
+    }
+}
+
 TEST(Shade, CoverageIsAlphaOverTheBackground) {
     VisibleSurface visible = seenUnder({1, 1, 1});
     visible.coverage = {1, 0.25f, 0.25f};
@@ -65,8 +91,8 @@ TEST(Shade, ExposureBringsTheBrightPartsNearWhite) {
     VisibleSurface visible = seenUnder(std::vector<double>(100, 1.0));
     std::vector<Rgbf> radiance(100, Rgbf{0.05f, 0.1f, 0.1f});
     radiance[7] = {50, 50, 50};  // a highlight that may burn out
-    EXPECT_NEAR(displayExposure(visible, radiance), 3, 1e-5);
-    EXPECT_EQ(displayExposure(visible, std::vector<Rgbf>(100)), 0);
+    EXPECT_NEAR(displayExposure(visible, radiance, 0), 3, 1e-5);
+    EXPECT_EQ(displayExposure(visible, std::vector<Rgbf>(100), 0), 0);
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "render/visible_raster.h"
 
+#include <hwy/highway.h>
+
 #include <cmath>
 #include <map>
 
@@ -95,6 +97,17 @@ TEST(VisibleRaster, FindsWhatRaysFindFromWithinAndAcrossTheEye) {
                  97},
                 std::to_string(distance));
     expectAgreement({builtIn("sphere"), {.distance = 0.45, .field_of_view_deg = 60}, 150, 97}, "inside");
+}
+
+TEST(VisibleRaster, FindsTheSameWithShorterVectors) {
+    for (const std::int64_t target : {HWY_AVX2, HWY_SSE4}) {
+        if ((hwy::SupportedTargets() & target) == 0) continue;
+        hwy::SetSupportedTargetsForTest(target);
+        expectAgreement({builtIn("torus_knot"), {.azimuth_deg = 40}, 203, 131}, hwy::TargetName(target));
+        expectAgreement({crossedSheets(), {.distance = 0.7, .field_of_view_deg = 80}, 150, 97},
+                        hwy::TargetName(target));
+        hwy::SetSupportedTargetsForTest(0);
+    }
 }
 
 TEST(VisibleRaster, LeavesNoPixelOpenBetweenTriangles) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <optional>
 #include <vector>
 
 #include "render/exitance/judge.h"
@@ -34,10 +33,9 @@ public:
     /// reference_fineness times as fine as `opening`.
     void draw(const PilotInput& input, const DualTreeResult& sums, Rgb opening, OpeningCache& openings);
 
-    /// What the sample says of a sum of the same receivers taken with `opening`; `bounds` by channel. Nothing where
-    /// the reference is no longer fine enough beside it.
-    std::optional<SumCalibration> judged(const PilotInput& input, const DualTreeResult& sums, Rgb opening,
-                                         Rgb& bounds) const;
+    /// What the sample says of a sum of the same receivers taken with `opening`, which is at least half of that at the
+    /// last draw(); `bounds` by channel.
+    SumCalibration judged(const PilotInput& input, const DualTreeResult& sums, Rgb opening, Rgb& bounds) const;
 
 private:
     void drawLeaves(const PilotInput& input, const DualTreeResult& sums);

@@ -31,14 +31,6 @@ struct Patch {
 
 Vec3f sum(Vec3f a, Vec3f b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 
-void append(VisibleSurface& part, std::uint32_t pixel, float coverage, Vec3f position, Vec3f normal, Vec3f geometric) {
-    part.pixels.push_back(pixel);
-    part.coverage.push_back(coverage);
-    part.positions.push_back(position);
-    part.normals.push_back(normal);
-    part.geometric_normals.push_back(geometric);
-}
-
 template <class Body>
 void forEachList(const Body& body) {
     body(&VisibleSurface::pixels);
@@ -48,10 +40,28 @@ void forEachList(const Body& body) {
     body(&VisibleSurface::geometric_normals);
 }
 
+// What a tile adds to the list: lists that never shrink, of which the first `size` count.
+struct Part {
+    VisibleSurface lists;
+    std::size_t size = 0;
+
+    void reserve(std::size_t count) {
+        if (lists.pixels.size() < count) forEachList([&](auto list) { (lists.*list).resize(count); });
+    }
+    void append(std::uint32_t pixel, float coverage, Vec3f position, Vec3f normal, Vec3f geometric) {
+        lists.pixels[size] = pixel;
+        lists.coverage[size] = coverage;
+        lists.positions[size] = position;
+        lists.normals[size] = normal;
+        lists.geometric_normals[size] = geometric;
+        ++size;
+    }
+};
+
 class TileWork {
 public:
     TileWork(const View& view, const Mesh& mesh, const HitSource& source, int edge_samples, const Tile& tile,
-             Scratch& scratch, VisibleSurface& part)
+             Scratch& scratch, Part& part)
         : view_(view),
           mesh_(mesh),
           source_(source),
@@ -77,6 +87,7 @@ public:
             edge_of_row_[static_cast<std::size_t>(y)] = edge;
             edge += static_cast<std::size_t>(std::popcount(scratch_.edges[static_cast<std::size_t>(y)]));
         }
+        part_.reserve(static_cast<std::size_t>(tile_.width * tile_.height) + edge * edge_samples_);
         for (int top = 0; top < tile_.height; top += block_side)
             for (int left = 0; left < tile_.width; left += block_side) block(left, top);
     }
@@ -110,8 +121,8 @@ private:
                 }
                 const std::size_t at = Tile::at(x + 1, y + 1);
                 if (scratch_.centres.inverse_depth[at] > 0)
-                    append(part_, pixel, 1, scratch_.surface.positionAt(at), scratch_.surface.normalAt(at),
-                           scratch_.surface.geometricAt(at));
+                    part_.append(pixel, 1, scratch_.surface.positionAt(at), scratch_.surface.normalAt(at),
+                                 scratch_.surface.geometricAt(at));
             }
         }
     }
@@ -135,9 +146,9 @@ private:
             ++patch->count;
         }
         for (const Patch& patch : patches_)
-            append(part_, pixel, static_cast<float>(patch.count) / static_cast<float>(edge_samples_),
-                   at.positionAt(patch.first), toFloat(normalize(toDouble(patch.normals))),
-                   at.geometricAt(patch.first));
+            part_.append(pixel, static_cast<float>(patch.count) / static_cast<float>(edge_samples_),
+                         at.positionAt(patch.first), toFloat(normalize(toDouble(patch.normals))),
+                         at.geometricAt(patch.first));
     }
 
     const View& view_;
@@ -146,7 +157,7 @@ private:
     std::size_t edge_samples_, stride_;
     const Tile& tile_;
     Scratch& scratch_;
-    VisibleSurface& part_;
+    Part& part_;
     PatchRule rule_;
     std::array<std::size_t, Tile::side> edge_of_row_;  // the first edge pixel of each
     std::vector<Patch> patches_;
@@ -157,7 +168,7 @@ private:
 struct SurfaceGatherer::Impl {
     std::mutex mutex;
     std::vector<std::unique_ptr<Scratch>> idle;
-    std::vector<VisibleSurface> parts;  // per tile
+    std::vector<Part> parts;  // per tile
 
     std::unique_ptr<Scratch> take() {
         const std::lock_guard lock(mutex);
@@ -173,11 +184,12 @@ struct SurfaceGatherer::Impl {
 
     void join(std::size_t tiles, int threads, VisibleSurface& all) const {
         std::vector<std::size_t> first(tiles + 1);
-        for (std::size_t t = 0; t < tiles; ++t) first[t + 1] = first[t] + parts[t].pixels.size();
+        for (std::size_t t = 0; t < tiles; ++t) first[t + 1] = first[t] + parts[t].size;
         forEachList([&](auto list) { (all.*list).resize(first[tiles]); });
         parallelFor(tiles, threads, [&](std::size_t t) {
             forEachList([&](auto list) {
-                std::ranges::copy(parts[t].*list, (all.*list).begin() + static_cast<std::ptrdiff_t>(first[t]));
+                std::copy_n((parts[t].lists.*list).begin(), parts[t].size,
+                            (all.*list).begin() + static_cast<std::ptrdiff_t>(first[t]));
             });
         });
     }
@@ -196,8 +208,8 @@ void SurfaceGatherer::gather(const View& view, const Mesh& mesh, const HitSource
         Tile tile{static_cast<int>(t) % columns * Tile::side, static_cast<int>(t) / columns * Tile::side};
         tile.width = std::min(Tile::side, view.width - tile.left);
         tile.height = std::min(Tile::side, view.height - tile.top);
-        VisibleSurface& part = impl_->parts[t];
-        forEachList([&](auto list) { (part.*list).clear(); });
+        Part& part = impl_->parts[t];
+        part.size = 0;
         std::unique_ptr<Scratch> scratch = impl_->take();
         TileWork(view, mesh, source, options.edge_samples, tile, *scratch, part).run();
         impl_->giveBack(std::move(scratch));
