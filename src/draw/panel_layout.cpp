@@ -14,7 +14,7 @@ namespace searchlight {
 
 namespace {
 
-constexpr double gap = 14, heading_line = 18, heading_size = 12, tick_line = 20, label_line = 18;
+constexpr double gap = 30, heading_line = 18, heading_size = 12, tick_line = 20, label_line = 18;
 constexpr double bar_gap = 16, longest_bar = 260;
 
 // A hemisphere has no axes.

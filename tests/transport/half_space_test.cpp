@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <cmath>
+#include <numbers>
 
 #include "base/error.h"
 #include "exact.h"
@@ -84,6 +85,23 @@ TEST(HalfSpace, StripIsTheMiddleOfTheGrid) {
     }
     // Standard errors of what a beam moves: more on the side that it leans to.
     EXPECT_GT(result.all.strip[3] - result.all.strip[2], 3 * result.all.strip_standard_error[3]);
+}
+
+// A walk scattered once, at length t of the beam, leaves from under its place: at matched indices and isotropic
+// scattering <x> = sin int (mu/(mu+m))^2 dmu / int mu/(mu+m) dmu, m the cosine of the beam, over [0, 1].
+TEST(HalfSpace, SingleScatteringShiftsByItsClosedForm) {
+    Judge judge;
+    std::uint64_t seed = 5;
+    for (const double albedo : {0.3, 0.9})
+        for (const double angle_deg : {10.0, 45.0, 60.0, 85.0}) {
+            HalfSpaceProblem problem = ofAlbedo(albedo);
+            problem.angle_deg = angle_deg;
+            const HalfSpaceResult result = walk(problem, 200'000, seed++);
+            const double m = std::cos(angle_deg * std::numbers::pi / 180), log = std::log((1 + m) / m);
+            const double expected = std::sqrt(1 - m * m) * (1 - 2 * m * log + m / (1 + m)) / (1 - m * log);
+            judge.compare("angle " + std::to_string(angle_deg), result.single.mean_x_mm, expected);
+        }
+    judge.expectAgreement();
 }
 
 TEST(HalfSpace, RefusesImpossibleStrips) {

@@ -214,9 +214,9 @@ HalfSpaceResult walkHalfSpace(const HalfSpaceProblem& problem, const HalfSpaceOp
     result.specular = beam.specular;
     result.threads = options.threads > 0 ? options.threads : hardwareThreads();
     result.instruction_set = halfSpaceInstructionSet();
-    const bool analogue =
-        options.grid > 0 || !options.strip_edges_mm.empty() || problem.beam.kind != BeamShape::pencil;
-    result.estimator = analogue ? Estimator::analogue : options.estimator;
+    const bool cells = options.grid > 0 || !options.strip_edges_mm.empty();
+    const bool pencil = problem.beam.kind == BeamShape::pencil;
+    result.estimator = cells || !pencil ? Estimator::analogue : options.estimator;
     if (problem.sigma_s == 0 || beam.specular == 1) {
         result.all = result.single = result.multiple = emptyTally(options);
         return result;

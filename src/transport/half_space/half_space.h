@@ -19,7 +19,7 @@ struct HalfSpaceProblem {
     double g = 0;          ///< Henyey-Greenstein mean cosine, |g| < 1
     double eta = 1;        ///< refractive index inside over outside; smooth Fresnel boundary
     double angle_deg = 0;  ///< of incidence outside, [0, 90); the refracted beam leans towards +x
-    BeamShape beam = {};        ///< its axis meets the surface at the entry point
+    BeamShape beam = {};   ///< its axis meets the surface at the entry point
 };
 
 /// How a walk becomes a tally; both are unbiased.
@@ -34,11 +34,11 @@ struct HalfSpaceOptions {
     std::vector<double> edges_mm;  ///< of the radial bins about the entry point, ascending, at least 2, first >= 0
     int grid = 0;                  ///< cells per side of the square tally R(x, y); 0: none
     double grid_extent_mm = 0;     ///< the square is [-extent, extent]^2
-    /// Along x, ascending: cells of the strip about the plane of incidence, |y| < strip_half_width_mm; or empty.
-    std::vector<double> strip_edges_mm = {};
-    double strip_half_width_mm = 0;
-    int threads = 0;  ///< 0: all
-    Estimator estimator = Estimator::analogue;  ///< grids, strips and wide beams are always walked by the analogue
+    /// Along x, ascending: cells of the strip about the plane of incidence; or empty.
+    std::vector<double> strip_edges_mm;
+    double strip_half_width_mm = 0;             ///< the strip is |y| < this
+    int threads = 0;                            ///< 0: all
+    Estimator estimator = Estimator::analogue;  ///< a grid, a strip or a wide beam is always walked by the analogue
     WalkControl control;  ///< until_error: of the total, and of the profile: the mean over its bins, weighted by flux
 };
 

@@ -17,7 +17,7 @@ struct HalfSpaceWalk {
     double eta = 1;       ///< inside over outside
     double sin_beam = 0;  ///< of the refracted beam, which leans towards +x
     double cos_beam = 1;
-    BeamShape shape = {};           ///< its radius in mean free paths
+    BeamShape shape = {};      ///< its radius in mean free paths
     double cos_incidence = 1;  ///< outside
 };
 

@@ -58,7 +58,9 @@ RadianceResult walkRadiance(const HalfSpaceProblem& problem, const RadianceOptio
                              .g = problem.g,
                              .eta = problem.eta,
                              .sin_beam = beam.sine,
-                             .cos_beam = beam.cosine};
+                             .cos_beam = beam.cosine,
+                             .shape = {problem.beam.kind, problem.beam.radius * sigma_t},
+                             .cos_incidence = std::cos(problem.angle_deg * pi / 180)};
     RadianceLayout layout{options.r0_mm * sigma_t, options.r1_mm * sigma_t, options.azimuth_deg * pi / 180};
     // A sector of the whole turn has no edge that rounding could lose an exit at.
     layout.half_width = options.half_width_deg == 180 ? 4 : options.half_width_deg * pi / 180;
