@@ -13,28 +13,10 @@ namespace searchlight {
 
 namespace {
 
-std::string percent(double part) { return std::isfinite(part) ? fmt::format("{:.1f} %", 100 * part) : "–"; }
-std::string costText(double ns) { return prettyNumber(ns, 2) + " ns"; }
-
-// What a number of the reference is known to, mean over the channels.
-struct ReferenceNoise {
-    double profile = 0, total = 0, shift = 0;
-};
-
-ReferenceNoise noiseOf(const Ranking& ranking) {
-    ReferenceNoise noise;
-    const double count = static_cast<double>(ranking.channels.size());
-    for (std::size_t i = 0; i < ranking.channels.size(); ++i) {
-        const RankReference& reference = ranking.reference[i];
-        noise.profile += ranking.ranked.front().channels[i].curve.noise / count;
-        noise.total += reference.total.standard_error / reference.total.mean / count;
-        noise.shift += reference.mean_x_mm.standard_error / std::abs(reference.mean_x_mm.mean) / count;
-    }
-    return noise;
-}
+std::string noisePercent(double part) { return std::isfinite(part) ? fmt::format("{:.2f} %", 100 * part) : "–"; }
 
 std::string noiseText(const Ranking& ranking) {
-    const ReferenceNoise noise = noiseOf(ranking);
+    const RankingNoise noise = rankingNoise(ranking);
     return fmt::format("The reference is known to {:.2g} % of R_d, {:.2g} % of the total and {:.2g} % of the shift.",
                        100 * noise.profile, 100 * noise.total, 100 * noise.shift);
 }
@@ -44,22 +26,11 @@ std::string rankText(const RankedModel& model) {
     return fmt::format("{}{}", model.rank, model.ties.empty() ? "" : " =");
 }
 
-std::string meaning(const Ranking& ranking) {
-    return fmt::format(
-        "R_d: ∫ |model − reference| 2πr dr over ∫ reference 2πr dr, under a normal beam; near and far: the same within "
-        "and beyond one transport mean free path 1/σt′, each over its own light. Total: diffuse reflectance. Shift: "
-        "mean "
-        "x under a beam at {}°; 100 % is no shift at all. {} Rank =: the reference's noise does not tell it from "
-        "another.",
-        prettyNumber(ranking.effort.angle_deg),
-        ranking.channels.size() > 1 ? "Means over the channels that scatter." : "");
-}
-
 std::string summaryOf(const Ranking& ranking, const std::vector<RankEntry>& entries) {
     const RankedModel& best = ranking.ranked.front();
     std::string text =
         fmt::format("On {}, {} is nearest to the reference: its R_d is off by {} ± {}", ranking.subject.name,
-                    entries[best.model].label, percent(best.profile), percent(best.standard_error));
+                    entries[best.model].label, percentText(best.profile), noisePercent(best.standard_error));
     if (!best.ties.empty()) {
         std::vector<std::string> names;
         for (const std::size_t tie : best.ties) names.push_back(entries[tie].label);
@@ -92,7 +63,7 @@ std::string estimatorName(const RankWalks& walks) {
 }
 
 Json referenceJson(const Ranking& ranking) {
-    const ReferenceNoise noise = noiseOf(ranking);
+    const RankingNoise noise = rankingNoise(ranking);
     Json channels = Json::array();
     for (std::size_t i = 0; i < ranking.channels.size(); ++i) {
         const RankReference& reference = ranking.reference[i];
@@ -111,13 +82,13 @@ Json referenceJson(const Ranking& ranking) {
 
 ReportTable rankingTable(const Ranking& ranking, const std::vector<RankEntry>& entries) {
     ReportTable table{
-        .caption = meaning(ranking),
+        .caption = rankingMeaning(ranking),
         .header = {"rank", "model", "R_d", "±", "near", "far", "total", "shift", "one evaluation", "where it fails"}};
     for (const RankedModel& model : ranking.ranked)
-        table.rows.push_back({rankText(model), entries[model.model].label, percent(model.profile),
-                              percent(model.standard_error), percent(model.near), percent(model.far),
-                              percent(model.total), percent(model.shift), costText(ranking.cost_ns[model.model]),
-                              ranking.sentence(model)});
+        table.rows.push_back({rankText(model), entries[model.model].label, percentText(model.profile),
+                              noisePercent(model.standard_error), percentText(model.near), percentText(model.far),
+                              percentText(model.total), percentText(model.shift),
+                              evaluationText(ranking.cost_ns[model.model]), ranking.sentence(model)});
     return table;
 }
 
@@ -132,9 +103,9 @@ ReportTable channelTable(const Ranking& ranking, const std::vector<RankEntry>& e
                 return std::isfinite(part) ? fmt::format("{:+.1f} %", 100 * part) : std::string("–");
             };
             table.rows.push_back({channelName(ranking.subject.medium, ranking.channels[i]), entries[model.model].label,
-                                  percent(score.curve.weighted), percent(score.curve.near), percent(score.curve.far),
-                                  with_sign(score.total.mean), with_sign(score.shift.mean),
-                                  prettyNumber(ranking.reference[i].split_mm, 3) + " mm",
+                                  percentText(score.curve.weighted), percentText(score.curve.near),
+                                  percentText(score.curve.far), with_sign(score.total.mean),
+                                  with_sign(score.shift.mean), prettyNumber(ranking.reference[i].split_mm, 3) + " mm",
                                   failureText(ranking.reference[i], score, ranking.effort.angle_deg)});
         }
     return table;
@@ -152,8 +123,8 @@ Figure errorsFigure(const Ranking& ranking, const std::vector<RankEntry>& entrie
             if (!std::isnan(score.shift.mean)) shift += std::pow(score.shift.standard_error / count, 2);
         }
         model.errors = {{ranked.profile, ranked.standard_error},
-                        {ranked.near},
-                        {ranked.far},
+                        {ranked.near, ranked.near_error},
+                        {ranked.far, ranked.far_error},
                         {ranked.total, std::sqrt(total)},
                         {ranked.shift, std::sqrt(shift)}};
     }
@@ -164,55 +135,38 @@ Figure errorsFigure(const Ranking& ranking, const std::vector<RankEntry>& entrie
     return figure;
 }
 
-// The mark of a cell: the nearest model, and those that noise does not tell from it.
-std::string_view markOf(const RankedModel& model) { return model.rank > 1 ? "" : model.ties.empty() ? "*" : "="; }
-
-const RankedModel& rankedOf(const Ranking& ranking, std::size_t entry) {
-    return *std::ranges::find(ranking.ranked, entry, &RankedModel::model);
-}
-
-// Materials on which each entry is nearest or not told from the nearest, and the median of its error.
-struct Tally {
-    int nearest = 0;
-    double median = 0, median_shift = 0;
-};
-
-std::vector<Tally> talliesOf(std::span<const Ranking> rankings, std::size_t entries) {
-    const auto median = [](std::vector<double> values) {
-        std::erase_if(values, [](double value) { return !std::isfinite(value); });
-        if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-        const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-        std::ranges::nth_element(values, middle);
-        return *middle;
-    };
-    std::vector<Tally> tallies(entries);
-    for (std::size_t m = 0; m < entries; ++m) {
-        std::vector<double> errors, shifts;
-        for (const Ranking& ranking : rankings) {
-            const RankedModel& model = rankedOf(ranking, m);
-            tallies[m].nearest += model.rank == 1;
-            errors.push_back(model.profile);
-            shifts.push_back(model.shift);
-        }
-        tallies[m].median = median(std::move(errors));
-        tallies[m].median_shift = median(std::move(shifts));
-    }
-    return tallies;
-}
-
-double meanAlbedo(const Ranking& ranking) {
-    double sum = 0;
-    for (const int c : ranking.channels) sum += ranking.subject.medium.alphaPrime()[c];
-    return sum / static_cast<double>(ranking.channels.size());
-}
-
-double meanG(const Ranking& ranking) {
-    double sum = 0;
-    for (const int c : ranking.channels) sum += ranking.subject.medium.g[c];
-    return sum / static_cast<double>(ranking.channels.size());
-}
-
 }  // namespace
+
+std::string percentText(double part) {
+    if (!std::isfinite(part)) return "–";
+    // Beyond ten times the light a number tells no more than that.
+    return part > 10 ? "> 1000 %" : fmt::format("{:.1f} %", 100 * part);
+}
+
+std::string evaluationText(double ns) { return prettyNumber(ns, 2) + " ns"; }
+
+RankingNoise rankingNoise(const Ranking& ranking) {
+    RankingNoise noise;
+    const double count = static_cast<double>(ranking.channels.size());
+    for (std::size_t i = 0; i < ranking.channels.size(); ++i) {
+        const RankReference& reference = ranking.reference[i];
+        noise.profile += ranking.ranked.front().channels[i].curve.noise / count;
+        noise.total += reference.total.standard_error / reference.total.mean / count;
+        noise.shift += reference.mean_x_mm.standard_error / std::abs(reference.mean_x_mm.mean) / count;
+    }
+    return noise;
+}
+
+std::string rankingMeaning(const Ranking& ranking) {
+    return fmt::format(
+        "R_d: ∫ |model − reference| 2πr dr over ∫ reference 2πr dr, under a normal beam; near and far: the same within "
+        "and beyond one transport mean free path 1/σt′, each over its own light. Total: diffuse reflectance. Shift: "
+        "mean "
+        "x under a beam at {}°; 100 % is no shift at all. {} Rank =: the reference's noise does not tell it from "
+        "another.",
+        prettyNumber(ranking.effort.angle_deg),
+        ranking.channels.size() > 1 ? "Means over the channels that scatter." : "");
+}
 
 std::string rankingText(const Ranking& ranking, const std::vector<RankEntry>& entries) {
     std::string text = summaryOf(ranking, entries) + "\n" + noiseText(ranking) + "\n\n" +
@@ -220,9 +174,9 @@ std::string rankingText(const Ranking& ranking, const std::vector<RankEntry>& en
                                    "+-", "near", "far", "total", "shift", "cost");
     for (const RankedModel& model : ranking.ranked)
         text += fmt::format("{:<5} {:<36} {:>8} {:>7} {:>8} {:>8} {:>8} {:>8} {:>8}\n", rankText(model),
-                            entries[model.model].id, percent(model.profile), percent(model.standard_error),
-                            percent(model.near), percent(model.far), percent(model.total), percent(model.shift),
-                            costText(ranking.cost_ns[model.model]));
+                            entries[model.model].id, percentText(model.profile), noisePercent(model.standard_error),
+                            percentText(model.near), percentText(model.far), percentText(model.total),
+                            percentText(model.shift), evaluationText(ranking.cost_ns[model.model]));
     text += "\n";
     for (const RankedModel& model : ranking.ranked)
         text += fmt::format("{}: {}.\n", entries[model.model].id, ranking.sentence(model));
@@ -279,96 +233,6 @@ Report rankingReport(const Ranking& ranking, std::vector<RankEntry>& entries) {
     channels.tables.push_back(channelTable(ranking, entries));
     for (const std::string& note : ranking.subject.notes) channels.paragraphs.push_back(note);
     report.sections = {std::move(order), std::move(curves), std::move(channels)};
-    return report;
-}
-
-std::string matrixText(std::span<const Ranking> rankings, const std::vector<RankEntry>& entries) {
-    std::string text = "Error of R_d, %; * nearest to the reference, = not told from the nearest by its noise\n\n";
-    std::size_t names = 8;
-    for (const Ranking& ranking : rankings) names = std::max(names, ranking.subject.id.size());
-    text += fmt::format("{:<{}} {:>7} {:>6}", "material", names, "albedo'", "noise");
-    for (const RankEntry& entry : entries)
-        text += fmt::format("  {:>{}}", entry.id, std::max<std::size_t>(7, entry.id.size()));
-    text += "\n";
-    for (const Ranking& ranking : rankings) {
-        text += fmt::format("{:<{}} {:>7.4f} {:>6.2f}", ranking.subject.id, names, meanAlbedo(ranking),
-                            100 * noiseOf(ranking).profile);
-        for (std::size_t m = 0; m < entries.size(); ++m) {
-            const RankedModel& model = rankedOf(ranking, m);
-            const std::string cell =
-                std::isfinite(model.profile) ? fmt::format("{:.1f}{:1}", 100 * model.profile, markOf(model)) : "- ";
-            text += fmt::format("  {:>{}}", cell, std::max<std::size_t>(7, entries[m].id.size()));
-        }
-        text += "\n";
-    }
-    const std::vector<Tally> tallies = talliesOf(rankings, entries.size());
-    for (std::size_t m = 0; m < entries.size(); ++m)
-        text += fmt::format(
-            "{}{}: nearest, or not told from it, on {} of {} materials; median error of R_d {}, of the "
-            "shift {}\n",
-            m == 0 ? "\n" : "", entries[m].id, tallies[m].nearest, rankings.size(), percent(tallies[m].median),
-            percent(tallies[m].median_shift));
-    return text;
-}
-
-Json matrixJson(std::span<const Ranking> rankings, const std::vector<RankEntry>& entries) {
-    Json materials = Json::array();
-    for (const Ranking& ranking : rankings) {
-        Json row = rankingJson(ranking, entries);
-        const RankedModel& best = ranking.ranked.front();
-        row["winner"] = entries[best.model].id;
-        row["ties"] = Json::array();
-        for (const std::size_t tie : best.ties) row["ties"].push_back(entries[tie].id);
-        materials.push_back(std::move(row));
-    }
-    return materials;
-}
-
-Report matrixReport(std::span<const Ranking> rankings, const std::vector<RankEntry>& entries) {
-    Report report;
-    report.title = fmt::format("Models on {} materials", rankings.size());
-    const std::vector<Tally> tallies = talliesOf(rankings, entries.size());
-    ReportTable models{
-        .caption = "Nearest: also where the reference's noise does not tell it from the nearest.",
-        .header = {"model", "nearest on", "median error of R_d", "median error of the shift", "one evaluation"}};
-    std::vector<ErrorsOverAlbedo> scatter;
-    for (std::size_t m = 0; m < entries.size(); ++m) {
-        models.rows.push_back({entries[m].label, std::to_string(tallies[m].nearest), percent(tallies[m].median),
-                               percent(tallies[m].median_shift), costText(rankings.front().cost_ns[m])});
-        ErrorsOverAlbedo errors{.label = entries[m].label};
-        for (const Ranking& ranking : rankings)
-            for (std::size_t i = 0; i < ranking.channels.size(); ++i) {
-                const double albedo = ranking.subject.medium.alphaPrime()[ranking.channels[i]];
-                const double error = rankedOf(ranking, m).channels[i].curve.weighted;
-                if (albedo == 1 || !std::isfinite(error)) continue;
-                errors.albedo.push_back(albedo);
-                errors.error.push_back(error);
-            }
-        scatter.push_back(std::move(errors));
-    }
-    const auto most = std::ranges::max_element(tallies, {}, &Tally::nearest);
-    report.summary =
-        fmt::format("{} is nearest to the reference, or not told from it, on {} of {} materials.",
-                    entries[static_cast<std::size_t>(most - tallies.begin())].label, most->nearest, rankings.size());
-    ReportSection first{.heading = "Models"};
-    first.tables.push_back(std::move(models));
-    first.figures.push_back(errorsOverAlbedoFigure(scatter, "Error of R_d over absorption"));
-    ReportTable matrix{
-        .caption = meaning(rankings.front()) + " Here: the error of R_d. *: nearest; =: not told from it.",
-        .header = {"material", "α′", "g", "noise"}};
-    for (const RankEntry& entry : entries) matrix.header.push_back(entry.label);
-    for (const Ranking& ranking : rankings) {
-        std::vector<std::string> row{ranking.subject.name, fmt::format("{:.4f}", meanAlbedo(ranking)),
-                                     fmt::format("{:.2f}", meanG(ranking)), percent(noiseOf(ranking).profile)};
-        for (std::size_t m = 0; m < entries.size(); ++m) {
-            const RankedModel& model = rankedOf(ranking, m);
-            row.push_back(fmt::format("{} {}", percent(model.profile), markOf(model)));
-        }
-        matrix.rows.push_back(std::move(row));
-    }
-    ReportSection second{.heading = "Materials"};
-    second.tables.push_back(std::move(matrix));
-    report.sections = {std::move(first), std::move(second)};
     return report;
 }
 

@@ -138,17 +138,22 @@ RankScore rankScore(const RankReference& reference, const RankAnswer& answer) {
     RankScore score;
     score.curve = curveError(answer.bin_means, reference.Rd, reference.standard_error, reference.edges_mm,
                              reference.channel, reference.split_mm);
-    double variance = 0, near_light = 0;
+    double field[2] = {}, variance = 0, field_variance[2] = {};  // far, near
+    for (const Annulus& annulus : annuli) field[annulus.near] += annulus.light;
     for (std::size_t i = 0; i < annuli.size(); ++i) {
         const auto& [area, here, noise, near] = annuli[i];
-        // d(weighted) / d(light here): the error shrinks or grows with the light, and its denominator grows.
-        const double slope = (-softSign(off[i], noise) - score.curve.weighted) / light;
-        variance += slope * slope * noise * noise;
+        // d(error) / d(light here): the difference grows or shrinks with the light, and the denominator grows.
+        const auto slope = [&, sign = softSign(off[i], noise)](double error, double over) {
+            return -(sign + error) / over;
+        };
+        variance += std::pow(slope(score.curve.weighted, light) * noise, 2);
+        field_variance[near] += std::pow(slope(near ? score.curve.near : score.curve.far, field[near]) * noise, 2);
         score.inflation += foldedExcess(off[i], noise) / light;
-        if (near) near_light += here;
     }
-    score.near_weight = near_light / light;
+    score.near_weight = field[1] / light;
     score.standard_error = std::sqrt(variance);
+    score.near_error = std::sqrt(field_variance[1]);
+    score.far_error = std::sqrt(field_variance[0]);
     score.total = relativeError(answer.total, reference.total);
     const Estimate& shift = reference.mean_x_mm;
     // A shift within three standard errors of 0 is none that an error could be relative to.
@@ -193,7 +198,7 @@ std::vector<RankedModel> rankModels(std::span<const RankReference> references,
     std::vector<RankedModel> ranked;
     for (std::size_t m = 0; m < answers.size(); ++m) {
         RankedModel model{.model = m};
-        double variance = 0, shifts = 0;
+        double shifts = 0;
         for (std::size_t i = 0; i < references.size(); ++i) {
             const RankScore score = rankScore(references[i], answers[m][i]);
             model.profile += score.curve.weighted / count;
@@ -201,13 +206,14 @@ std::vector<RankedModel> rankModels(std::span<const RankReference> references,
             model.far += score.curve.far / count;
             model.total += std::abs(score.total.mean) / count;
             if (!std::isnan(score.shift.mean)) model.shift += std::abs(score.shift.mean), ++shifts;
-            variance += std::pow(score.standard_error / count, 2);
+            model.standard_error = std::hypot(model.standard_error, score.standard_error / count);
+            model.near_error = std::hypot(model.near_error, score.near_error / count);
+            model.far_error = std::hypot(model.far_error, score.far_error / count);
             if (i > 0 && score.curve.weighted > model.channels[model.worst_channel].curve.weighted)
                 model.worst_channel = i;
             model.channels.push_back(score);
         }
         model.shift = shifts > 0 ? model.shift / shifts : nan;
-        model.standard_error = std::sqrt(variance);
         ranked.push_back(std::move(model));
     }
     const auto known = [](const RankedModel& model) { return std::isfinite(model.profile); };

@@ -40,7 +40,8 @@ struct ErrorPlace {
 struct RankScore {
     CurveError curve;           ///< profile, near and far; each relative to the light that leaves there
     double near_weight = 0;     ///< light of the near field; weighted = near_weight near + (1 - near_weight) far
-    double standard_error = 0;  ///< of curve.weighted, from the reference
+    /// Of curve.weighted, curve.near and curve.far, from that of the reference.
+    double standard_error = 0, near_error = 0, far_error = 0;
     /// What noise adds to curve.weighted on average, since errors of either sign count: all of it for a perfect model,
     /// nothing where the model is off by several standard errors.
     double inflation = 0;
@@ -70,7 +71,7 @@ struct RankedModel {
     int rank = 1;           ///< 1 + the number of models that are nearer to the reference beyond its noise
     /// Means over the channels of the absolute errors; a channel without a known shift is left out of `shift`.
     double profile = 0, near = 0, far = 0, total = 0, shift = 0;
-    double standard_error = 0;  ///< of profile
+    double standard_error = 0, near_error = 0, far_error = 0;  ///< of profile, near and far
     std::vector<RankScore> channels;
     std::vector<std::size_t> ties;  ///< models (indices into the answers) that noise does not tell from this one
     std::size_t worst_channel = 0;  ///< index into channels: the largest error of the profile

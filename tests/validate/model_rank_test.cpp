@@ -73,6 +73,8 @@ TEST(ModelRank, NoiseOfAnErrorFollowsFromThatOfTheReference) {
     EXPECT_THAT(high.curve.weighted, DoubleNear(1, rounding));
     EXPECT_THAT(high.standard_error, DoubleNear(2 * 0.01 / 5, rounding));
     EXPECT_THAT(high.inflation, DoubleNear(0, rounding));
+    EXPECT_THAT(high.near_error, DoubleNear(2 * 0.01 / 2, rounding)) << "its light is 2";
+    EXPECT_EQ(high.far_error, 0);
 }
 
 TEST(ModelRank, APerfectModelShowsTheNoise) {
