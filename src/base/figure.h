@@ -38,6 +38,7 @@ struct Figure {
     std::string caption;  ///< conventions, what the band means
     Axis x, y;
     std::vector<Series> series;
+    std::vector<Figure> below = {};  ///< lower panels, their frames flush with this one's; without panels of their own
     /// Version, job, seed, backend...: written into the file, not drawn.
     std::vector<std::pair<std::string, std::string>> metadata;
 };

@@ -34,14 +34,7 @@ std::string axisComment(std::string_view key, const Axis& axis) {
     return comment(key, fmt::format("{}{}, shown {}", axis.label, unit, names[static_cast<int>(axis.scale)]));
 }
 
-}  // namespace
-
-std::string figureCsv(const Figure& figure) {
-    std::string csv = comment("title", figure.title);
-    if (!figure.caption.empty()) csv += comment("caption", figure.caption);
-    csv += axisComment("x", figure.x) + axisComment("y", figure.y);
-    for (const auto& [key, value] : figure.metadata) csv += comment(key, value);
-    csv += "series,x,x_end,y,lower,upper\n";
+void appendRows(std::string& csv, const Figure& figure) {
     for (const Series& series : figure.series) {
         const bool steps = series.style == SeriesStyle::steps;
         for (size_t i = 0; i < series.y.size(); ++i) {
@@ -51,6 +44,21 @@ std::string figureCsv(const Figure& figure) {
                        ? ",,\n"
                        : fmt::format(",{},{}\n", numberText(series.lower[i]), numberText(series.upper[i]));
         }
+    }
+}
+
+}  // namespace
+
+std::string figureCsv(const Figure& figure) {
+    std::string csv = comment("title", figure.title);
+    if (!figure.caption.empty()) csv += comment("caption", figure.caption);
+    csv += axisComment("x", figure.x) + axisComment("y", figure.y);
+    for (const auto& [key, value] : figure.metadata) csv += comment(key, value);
+    csv += "series,x,x_end,y,lower,upper\n";
+    appendRows(csv, figure);
+    for (const Figure& panel : figure.below) {
+        csv += axisComment("panel", panel.y);
+        appendRows(csv, panel);
     }
     return csv;
 }

@@ -14,7 +14,7 @@ namespace searchlight {
 
 namespace {
 
-constexpr double document_width = 640, plot_height = 380, margin = 16;
+constexpr double document_width = 640, plot_height = 380, panel_height = 130, margin = 16;
 constexpr double title_size = 14, label_size = 13, caption_size = 11;
 constexpr double title_line = 19, caption_line = 15, factor_line = 16;
 constexpr std::string_view soft_ink = "#4d4d4d";
@@ -56,22 +56,29 @@ void drawFactor(std::vector<Shape>& shapes, Point at, int exponent) {
               fmt::format("{}{}", exponent < 0 ? "−" : "", std::abs(exponent)));
 }
 
-}  // namespace
+// Ticks of the ordinate: fewer where there is less room.
+AxisTicks ordinateTicks(const Figure& figure, const FigureRange& range, double height) {
+    return axisTicks(figure.y.scale, range.y_min, range.y_max, height < plot_height ? 4 : 6);
+}
 
-Drawing layoutFigure(const Figure& figure) {
+// Where the frame has to begin for the labels on its left.
+double frameLeft(const Figure& figure, double height) {
+    double tick_labels = 0;
+    for (const Tick& tick : ordinateTicks(figure, figureRange(figure), height).ticks)
+        tick_labels = std::max(tick_labels, labelWidth(tick));
+    return margin + (figure.y.label.empty() ? 0 : label_size + 8) + tick_labels + 7;
+}
+
+Drawing layoutPanel(const Figure& figure, double height, double left) {
     const FigureRange range = figureRange(figure);
     const AxisTicks x_ticks = axisTicks(figure.x.scale, range.x_min, range.x_max, 7);
-    const AxisTicks y_ticks = axisTicks(figure.y.scale, range.y_min, range.y_max, 6);
-
-    double tick_labels = 0;
-    for (const Tick& tick : y_ticks.ticks) tick_labels = std::max(tick_labels, labelWidth(tick));
+    const AxisTicks y_ticks = ordinateTicks(figure, range, height);
     const double right = document_width - margin;
-    const double left = margin + (figure.y.label.empty() ? 0 : label_size + 8) + tick_labels + 7;
     const std::vector<std::string> title = wrapText(figure.title, right - left, title_size, true);
     const double top =
         std::round(margin + title_line * static_cast<double>(title.size()) + (y_ticks.factor != 0 ? factor_line : 0));
     // Half a px: thin lines then fill a row of pixels instead of two halves.
-    const Rect frame{std::round(left) + 0.5, top + 0.5, right + 0.5, top + plot_height + 0.5};
+    const Rect frame{std::round(left) + 0.5, top + 0.5, right + 0.5, top + height + 0.5};
 
     // The curves first: the legend has to know where they run.
     const PlotArea plot(figure, frame, range, x_ticks, y_ticks);
@@ -114,6 +121,37 @@ Drawing layoutFigure(const Figure& figure) {
     for (const std::string& line : caption) {
         base += caption_line;
         shapes.push_back(Text{{margin, base}, line, caption_size, Anchor::start, soft_ink});
+    }
+    return drawing;
+}
+
+struct MoveDown {
+    double by;
+    void operator()(Polyline& line) const {
+        for (Point& point : line.points) point.y += by;
+    }
+    void operator()(Polygon& polygon) const {
+        for (Point& point : polygon.points) point.y += by;
+    }
+    void operator()(Box& box) const { box.rect.top += by, box.rect.bottom += by; }
+    void operator()(Circle& circle) const { circle.center.y += by; }
+    void operator()(Text& text) const { text.at.y += by; }
+    void operator()(Picture& picture) const { picture.rect.top += by, picture.rect.bottom += by; }
+};
+
+}  // namespace
+
+Drawing layoutFigure(const Figure& figure) {
+    double left = frameLeft(figure, plot_height);
+    for (const Figure& panel : figure.below) left = std::max(left, frameLeft(panel, panel_height));
+    Drawing drawing = layoutPanel(figure, plot_height, left);
+    for (const Figure& panel : figure.below) {
+        Drawing lower = layoutPanel(panel, panel_height, left);
+        for (Shape& shape : lower.shapes) std::visit(MoveDown{drawing.height}, shape);
+        drawing.shapes.insert(drawing.shapes.end(), std::move_iterator(lower.shapes.begin()),
+                              std::move_iterator(lower.shapes.end()));
+        drawing.width = std::max(drawing.width, lower.width);
+        drawing.height += lower.height;
     }
     return drawing;
 }
