@@ -247,7 +247,7 @@ JobResult runFit(const Job& job, Engine& engine, Observer& observer) {
         throw usageError("--count belongs to --model gaussians", "leave it out");
     if (options.given("total") && model != "gaussians")
         throw usageError("--total belongs to --model gaussians", "leave it out");
-    ProfileData data = readFitInput(options.text("profile"));
+    ProfileData data = readFitInput(options.text("profile"), options.text("order"));
     for (FitData& channel : data.channels)
         channel = between(channel, options.number("radii_min"), options.number("radii_max"));
     if (data.channels.front().radii_mm.size() < 3)
@@ -308,6 +308,11 @@ Command fitCommand() {
               .required = true},
              std::move(model),
              option::set(),
+             {.name = "order",
+              .type = ParamType::choice,
+              .value = std::string("all"),
+              .choices = {"all", "multiple", "single"},
+              .doc = "which part of a reference's light; multiple is what most dipoles are for"},
              {.name = "count",
               .type = ParamType::integer,
               .min = 1,

@@ -14,13 +14,16 @@ namespace searchlight {
 namespace {
 
 // The document of a reference holds means over annuli, that of `profile` values at points.
-ProfileData parseDocument(const std::string& text, const std::string& path) {
+ProfileData parseDocument(const std::string& text, const std::string& path, const std::string& order) {
     const Json document = Json::parse(text);
     const std::string format = document.at("format");
     const bool walked = format == "searchlight-reference/1";
     if (!walked && format != "searchlight-profile/1")
         throw inputError(fmt::format("'{}' is no profile", format),
                          "expected searchlight-reference/1 or searchlight-profile/1");
+    if (!walked && order != "all")
+        throw inputError(fmt::format("a profile does not tell {} scattering from the rest", order),
+                         "--order is for documents of reference halfspace");
     if (walked && document.value("geometry", "") != "halfspace")
         throw inputError("the walks were not in a half-space", "expected a document of reference halfspace");
     if (document.value("angle_deg", 0.0) != 0)
@@ -30,7 +33,8 @@ ProfileData parseDocument(const std::string& text, const std::string& path) {
     profile.title = material.value("name", path);
     profile.eta = material.at("eta");
     const double entered = document.at("per") == "incident" ? pencilBeam(profile.eta, 0).transmittance : 1;
-    const Json& table = walked ? document.at("profile") : document;
+    const Json& light = order == "all" ? document : document.at(order);
+    const Json& table = walked ? light.at("profile") : document;
     FitData radii;
     if (walked) {
         radii.edges_mm = table.at("edges_mm").get<std::vector<double>>();
@@ -57,11 +61,16 @@ ProfileData parseDocument(const std::string& text, const std::string& path) {
 
 }  // namespace
 
-ProfileData readFitInput(const std::string& path) {
+ProfileData readFitInput(const std::string& path, const std::string& order) {
     const std::string text = readFile(path);
-    if (!path.ends_with(".json")) return parseProfileData(text, path);
+    const bool csv = !path.ends_with(".json");
+    if (csv && order != "all")
+        throw inputError(fmt::format("a table does not tell {} scattering from the rest", order),
+                         "--order is for documents of reference halfspace")
+            .at(path);
+    if (csv) return parseProfileData(text, path);
     try {
-        return parseDocument(text, path);
+        return parseDocument(text, path, order);
     } catch (const Error& error) {
         throw error.at(path);
     } catch (const Json::exception&) {

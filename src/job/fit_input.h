@@ -8,7 +8,7 @@
 namespace searchlight {
 
 /// Reads a .csv table, or the JSON that `reference halfspace` and `profile` write (channels that do not scatter are
-/// refused). Throws an input Error.
-ProfileData readFitInput(const std::string& path);
+/// refused). `order` is "all", or "single" or "multiple" for that part of a reference's light. Throws an input Error.
+ProfileData readFitInput(const std::string& path, const std::string& order);
 
 }  // namespace searchlight

@@ -36,7 +36,7 @@ Figure fitFigure(std::span<const FitPicture> channels, const std::string& title,
     double top = 0, bottom = std::numeric_limits<double>::infinity(), right = 0;
     bool errors = false;
     for (const FitPicture& channel : channels) {
-        Series data{.label = named("data", channel), .style = SeriesStyle::points};
+        Series data{.label = "data", .style = SeriesStyle::points, .in_legend = &channel == &channels.front()};
         Series left{.label = named("difference", channel), .color = channel.color};
         Series band{.label = named("data", channel), .in_legend = false};
         for (std::size_t i = 0; i < channel.value.size(); ++i) {
