@@ -10,6 +10,7 @@ Command materialsCommand();
 Command profileCommand();
 Command invertCommand();
 Command convertCommand();
+Command fitCommand();
 Command referenceHalfSpaceCommand();
 Command referenceSlabCommand();
 Command referenceSphereCommand();

@@ -11,6 +11,7 @@ std::span<const Command> commands() {
         profileCommand(),
         invertCommand(),
         convertCommand(),
+        fitCommand(),
         referenceHalfSpaceCommand(),
         referenceSlabCommand(),
         referenceSphereCommand(),
