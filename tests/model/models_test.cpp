@@ -33,7 +33,7 @@ TEST(ShippedModels, AreAllThere) {
         EXPECT_FALSE(model.file.title.empty() || model.file.citation.empty() || model.file.validity.empty());
     }
     EXPECT_THAT(ids, testing::UnorderedElementsAre("better_dipole", "dipole", "directional_dipole", "gaussians",
-                                                   "normalized_diffusion"));
+                                                   "normalized_diffusion", "single", "single_jensen"));
 }
 
 // The trapezoidal sum is good to 1e-11 where the integrand is analytic.
