@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "gl/context.h"
+#include "model/sum_model.h"
 
 namespace searchlight {
 
@@ -21,6 +22,8 @@ bool Engine::contextLost() { return context_ && context_->lost(); }
 void Engine::dropContext() { context_.reset(); }
 
 std::unique_ptr<Evaluator> Engine::makeEvaluator(const Model& model, std::string_view backend) {
+    if (!model.parts.empty())
+        return makeSumEvaluator(model, [&](const Model& part) { return makeEvaluator(part, backend); });
     if (model.measured) return makeMeasuredEvaluator(model);
     const bool native = hasNativeEvaluator(model);
     if (backend == "cpu" && !native)
@@ -60,7 +63,7 @@ ParamValues parseSettings(const Model& model, const std::vector<std::string>& se
         const std::size_t equals = setting.find('=');
         if (equals == std::string::npos)
             throw usageError(fmt::format("'{}' is no setting", setting), "expected name=value");
-        const std::string name(trim(std::string_view(setting).substr(0, equals)));
+        const std::string name = parameterName(model, trim(std::string_view(setting).substr(0, equals)));
         const Param& param = findParam(model.file.parameters, name, fmt::format("parameter of {}", model.id));
         values[name] = parseValue(param, std::string_view(setting).substr(equals + 1));
     }

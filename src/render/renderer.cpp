@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "geometry/point_cache.h"
 #include "model/plane.h"
+#include "model/sum_model.h"
 #include "render/background.h"
 #include "render/coat.h"
 #include "render/shade.h"
@@ -119,11 +120,17 @@ struct Renderer::Impl {
         refresh(Stage::rays, fmt::format("{}", runs(Stage::object)), [&] { rays.emplace(object.mesh); });
     }
 
+    bool underNormalBeam() const {
+        const auto given = settings.technique_options.find(normal_beam_option);
+        return given != settings.technique_options.end() && std::get<bool>(given->second);
+    }
+
     void refreshMaterial() {
-        refresh(Stage::material, keyOf(scene, &Scene::material, &Scene::model), [&] {
+        const std::string key = fmt::format("{} {}", keyOf(scene, &Scene::material, &Scene::model), underNormalBeam());
+        refresh(Stage::material, key, [&] {
             material = materials(scene);
             profile.reset();
-            if (isRadial(material.model))
+            if (isRadial(material.model) || underNormalBeam())
                 profile = tabulate(*material.evaluator, material.model, material.medium).profile;
         });
     }
@@ -297,6 +304,9 @@ struct Renderer::Impl {
             spacing_from = of;
         }
         report.notes = object.notes;
+        if (profile && !isRadial(material.model))
+            report.notes.emplace_back("At every angle the model stands with its profile under a normal beam.");
+        if (std::string twice = countedTwice(material.model); !twice.empty()) report.notes.push_back(std::move(twice));
         const Medium& medium = material.medium;
         for (int c = 0; c < medium.channels; ++c) {
             if (!medium.scatters(c))

@@ -37,7 +37,7 @@ TEST(ShippedModels, AreAllThere) {
     }
     EXPECT_THAT(ids, testing::UnorderedElementsAre("better_dipole", "dipole", "directional_dipole",
                                                    "directional_dipole_reciprocal", "gaussians", "multipole",
-                                                   "normalized_diffusion", "two_layers"));
+                                                   "normalized_diffusion", "single", "single_jensen", "two_layers"));
 }
 
 // The trapezoidal sum is good to 1e-11 where the integrand is analytic.

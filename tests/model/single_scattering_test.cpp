@@ -3,7 +3,9 @@
 
 #include "model/physics.h"
 #include "models.h"
+#include "transport/half_space/half_space.h"
 #include "transport/half_space/single_scattering.h"
+#include "transport/judge.h"
 
 namespace searchlight {
 namespace {
@@ -69,9 +71,9 @@ struct Setting {
     double g, eta, angle_deg;
 };
 const std::vector<Setting>& settings() {
-    static const std::vector<Setting> all = {{0, 1, 0},     {0, 1.3, 0},    {0.9, 1.5, 0},  {-0.5, 1.3, 0}, {0.5, 0.75, 0},
-                                             {0, 1, 60},    {0.8, 1.3, 45}, {0.5, 1.5, 80}, {-0.3, 2, 70},  {0.9, 1.1, 85},
-                                             {0, 0.75, 30}, {0.99, 1.4, 60}};
+    static const std::vector<Setting> all = {{0, 1, 0},      {0, 1.3, 0},    {0.9, 1.5, 0},  {-0.5, 1.3, 0},
+                                             {0.5, 0.75, 0}, {0, 1, 60},     {0.8, 1.3, 45}, {0.5, 1.5, 80},
+                                             {-0.3, 2, 70},  {0.9, 1.1, 85}, {0, 0.75, 30},  {0.99, 1.4, 60}};
     return all;
 }
 
@@ -101,13 +103,15 @@ TEST(SingleScattering, IsTheIntegralAlongTheBeamOnACurvedSurface) {
     for (const Setting& setting : settings()) {
         const LoadedModel loaded = load("single", mediumOf(setting));
         for (const Vec3 xo : {Vec3{0.3, 0.2, -0.4}, Vec3{-0.5, 0.1, -1}, Vec3{0.2, 0.6, 0.1}, Vec3{0.01, 0, -1.5}})
-            for (const Vec3 no : {Vec3{0, 0, 1}, Vec3{1, 0, 0}, Vec3{0.6, -0.48, -0.64}, Vec3{0, 0.28, -0.96}, Vec3{-0.8, 0, 0.6}}) {
+            for (const Vec3 no :
+                 {Vec3{0, 0, 1}, Vec3{1, 0, 0}, Vec3{0.6, -0.48, -0.64}, Vec3{0, 0.28, -0.96}, Vec3{-0.8, 0, 0.6}}) {
                 const Place place{xo, no};
                 const double expected = definition(loaded.medium, setting.angle_deg, place);
                 lit += expected > 0;
                 // 1e-4: where light needs a long way before it may leave, the rule has fewer points for it.
                 EXPECT_NEAR(valueAt(loaded, setting.angle_deg, place), expected, 1e-4 * expected + 1e-12)
-                    << "g " << setting.g << " eta " << setting.eta << ", " << setting.angle_deg << " deg, xo " << xo.x << " " << xo.y << " " << xo.z << " no " << no.x << " " << no.y << " " << no.z;
+                    << "g " << setting.g << " eta " << setting.eta << ", " << setting.angle_deg << " deg, xo " << xo.x
+                    << " " << xo.y << " " << xo.z << " no " << no.x << " " << no.y << " " << no.z;
             }
     }
     EXPECT_GT(lit, 100);
@@ -132,7 +136,31 @@ TEST(SingleScattering, HasTheTotalOfTheReference) {
         }
 }
 
-// Light comes down at the cosine mu_i and goes up at mu: of every path the part mu / (mu + mu_i) leaves, wherever that is.
+// Both per incident light; a tally is a mean over its annulus.
+TEST(SingleScattering, IsWhatWalksLeaveAfterOneCollision) {
+    Judge judge;
+    for (const Setting& setting : {Setting{0.8, 1.3, 0}, Setting{0.8, 1.3, 60}, Setting{-0.3, 1, 45}}) {
+        const LoadedModel loaded = load("single", grey(0.5, 2.5, setting.g, setting.eta));
+        HalfSpaceOptions options;
+        options.walks = 1'000'000;
+        options.edges_mm = {0, 0.05, 0.1, 0.2, 0.4, 0.8, 1.6};
+        Observer observer;
+        const HalfSpaceResult walked =
+            walkHalfSpace(halfSpaceProblem(loaded.medium, 0, setting.angle_deg), options, observer);
+        const double entry = pencilBeam(setting.eta, setting.angle_deg).transmittance;
+        const std::vector<Rgb> means =
+            annulusMeans(*loaded.evaluator, loaded.model, loaded.medium, setting.angle_deg, options.edges_mm);
+        const std::string where = "g " + std::to_string(setting.g) + ", deg " + std::to_string(setting.angle_deg);
+        for (std::size_t i = 0; i < means.size(); ++i)
+            judge.compare(where, {walked.single.Rd[i], walked.single.standard_error[i], 1}, entry * means[i].r);
+        judge.compare(where, walked.single.total,
+                      entry * totalRd(*loaded.evaluator, loaded.model, loaded.medium, setting.angle_deg).r);
+    }
+    judge.expectAgreement();
+}
+
+// Light comes down at the cosine mu_i and goes up at mu: of every path the part mu / (mu + mu_i) leaves, wherever that
+// is.
 double obliqueTotal(const Medium& medium, double angle_deg) {
     const double sine = std::sin(angle_deg * pi / 180) / medium.eta, mu_i = std::sqrt(1 - sine * sine);
     const double critical = medium.eta > 1 ? std::sqrt(1 - 1 / (medium.eta * medium.eta)) : 0;
@@ -142,8 +170,8 @@ double obliqueTotal(const Medium& medium, double angle_deg) {
         const double phase = integral(0, pi, 400, [&](double phi) {
             return 2 * Physics<double>::henyeyGreenstein(sine * s * std::cos(phi) - mu_i * mu, medium.g.r);
         });
-        return phase * (1 - Physics<double>::fresnelReflectance(mu, medium.eta)) * mu / (mu + mu_i) *
-               (1 - critical) * 2 * q;
+        return phase * (1 - Physics<double>::fresnelReflectance(mu, medium.eta)) * mu / (mu + mu_i) * (1 - critical) *
+               2 * q;
     });
     return sum * medium.sigma_s.r / (medium.sigma_a.r + medium.sigma_s.r);
 }
@@ -159,8 +187,8 @@ TEST(SingleScattering, HasTheTotalOfTheHalfSpaceAtAnyAngle) {
     }
 }
 
-// Shifted sideways, light is as much. Under grazing beams none leaves upstream, and the edge of where it does takes many
-// azimuths: 1024 leave 1e-4.
+// Shifted sideways, light is as much. Under grazing beams none leaves upstream, and the edge of where it does takes
+// many azimuths: 1024 leave 1e-4.
 TEST(SingleScattering, OfJensenHasTheSameTotalAtAnyAngle) {
     for (const Setting& setting : {Setting{0.5, 1.5, 80}, Setting{-0.3, 2, 70}, Setting{0.8, 1.3, 45}}) {
         const LoadedModel loaded = load("single_jensen", mediumOf(setting));

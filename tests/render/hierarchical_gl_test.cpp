@@ -310,6 +310,15 @@ TEST(HierarchicalGl, EvaluatesADirectionalModelToThePromisedError) {
     EXPECT_LT(static_cast<double>(technique->report().interactions) / 400, 1500);
 }
 
+TEST(HierarchicalGl, AddsThePartsOfASum) {
+    gl::Context context;
+    const auto technique = makeHierarchicalGl(&context);
+    const ModelCase problem("better_dipole+directional_dipole", 20);
+    const std::vector<Rgb> exact = sumModelInDouble(problem.input());
+    runToTheEnd(*technique, problem.input(), 0.01);
+    for (int c = 0; c < Rgb::channels; ++c) EXPECT_LE(relativeRmse(exact, technique->exitance(), c), 0.01) << c;
+}
+
 TEST(HierarchicalGl, ModelAndProfileOfItAgree) {
     gl::Context context;
     const auto technique = makeHierarchicalGl(&context);
