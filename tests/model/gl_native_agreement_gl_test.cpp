@@ -85,6 +85,10 @@ std::vector<Case> cases() {
     return all;
 }
 
+// An exponent of 80 multiplies the rounding of its factors by 80: 3 of them are 1e-5. In the integral of single
+// scattering there are ten, for h, place, m, 1 - m, u, 1 / u, their product, and the cosine that goes to 0 at the end.
+double tolerance(const Model& model) { return model.id.starts_with("single") ? 5e-5 : 1e-5; }
+
 class GlNativeAgreement : public testing::TestWithParam<std::string> {};
 
 std::vector<std::string> shippedIds() {
@@ -93,7 +97,7 @@ std::vector<std::string> shippedIds() {
     return ids;
 }
 
-TEST_P(GlNativeAgreement, IsWithin1em5From1em3To30MeanFreePaths) {
+TEST_P(GlNativeAgreement, IsWithinRoundingFrom1em3To30MeanFreePaths) {
     const Model model = loadModel(GetParam());
     ASSERT_TRUE(hasNativeEvaluator(model));
     gl::Context context;
@@ -114,7 +118,6 @@ TEST_P(GlNativeAgreement, IsWithin1em5From1em3To30MeanFreePaths) {
                     for (int c = 0; c < 3; ++c) {
                         if (length(queries[i].xo) * test.medium.sigmaTp()[c] > 30) continue;
                         const double scale = scaleAt(expected, i, c, model.file.radial);
-                        // An exponent of 80 multiplies the rounding of its factors by 80: 3 of them are 1e-5.
                         if (scale < 1e-35 && std::abs(values[i][c]) < 1e-35) continue;
                         const double error = std::abs(values[i][c] - expected[i][c]) / scale;
                         if (error <= worst) continue;
@@ -123,8 +126,8 @@ TEST_P(GlNativeAgreement, IsWithin1em5From1em3To30MeanFreePaths) {
                                             queries[i].xo.y, c, values[i][c], expected[i][c]);
                     }
                 }
-                EXPECT_LE(worst, 1e-5) << test.material << settingText(parameters) << ", " << angle_deg << " deg, "
-                                       << where;
+                EXPECT_LE(worst, tolerance(model))
+                    << test.material << settingText(parameters) << ", " << angle_deg << " deg, " << where;
             }
         }
     }
