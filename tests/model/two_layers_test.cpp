@@ -272,8 +272,15 @@ TEST(Errata, KubelkaMunkIsOffByWhatIsQuoted) {
         layers.coupling = "kubelka_munk";
         return 100 * (twoLayers(medium, layers).total() / exact - 1);
     };
-    for (const double top : {0.25,0.5,1.0,2.0, 4.0, 8.0})
-        fmt::print("{} {} {}\n", top, percent(top, "published"), percent(top, "first_collision"));
+    // Three digits, as printed there.
+    EXPECT_NEAR(percent(0.25, "published"), 7.37, 0.005);
+    EXPECT_NEAR(percent(1, "published"), 8.14, 0.005);
+    EXPECT_NEAR(percent(2, "published"), -1.23, 0.005);
+    EXPECT_NEAR(percent(8, "published"), -0.01, 0.005);
+    EXPECT_NEAR(percent(0.25, "first_collision"), 28.54, 0.005);
+    EXPECT_NEAR(percent(1, "first_collision"), 16.22, 0.005);
+    EXPECT_NEAR(percent(2, "first_collision"), 7.62, 0.005);
+    EXPECT_NEAR(percent(8, "first_collision"), 0.06, 0.005);
 }
 
 // What is not absorbed leaves, on one side or the other, but for what was never scattered.
