@@ -79,6 +79,7 @@ Ranking rankOn(const Subject& subject, std::vector<RankEntry>& entries, const Ra
         ranking.reference.push_back(ranking.walks.back().reference);
     }
     const double entered = pencilBeam(medium.eta, 0).transmittance;
+    const double entered_oblique = pencilBeam(medium.eta, effort.angle_deg).transmittance;
     std::vector<std::vector<RankAnswer>> answers;
     for (RankEntry& entry : entries) {
         if (observer.cancelled()) throw interruptedError();
@@ -93,6 +94,10 @@ Ranking rankOn(const Subject& subject, std::vector<RankEntry>& entries, const Ra
                               .total = entered * total[reference.channel],
                               .mean_x_mm = mean_x[reference.channel]};
             for (Rgb& mean : answer.bin_means) mean = entered * mean;
+            if (!reference.plane.empty())
+                answer.plane = modelPlane(*loaded.evaluator, loaded.model, medium, effort.angle_deg, reference.channel,
+                                          reference.cells, reference.cell_mm);
+            for (double& mean : answer.plane) mean *= entered_oblique;
             channels.push_back(std::move(answer));
         }
         answers.push_back(std::move(channels));

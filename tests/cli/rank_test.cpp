@@ -20,7 +20,7 @@ TEST_F(Rank, JsonHasAllThatADocumentNeeds) {
     double last = 0;
     for (const json& model : document.at("models")) {
         EXPECT_TRUE(model.at("id") == "dipole" || model.at("id") == "better_dipole");
-        for (const char* kind : {"profile", "near", "far", "total", "shift", "stderr"})
+        for (const char* kind : {"profile", "near", "far", "total", "shift", "oblique", "shape", "stderr"})
             EXPECT_TRUE(model.at("error").at(kind).is_number()) << kind;
         EXPECT_GE(model.at("error").at("profile"), last) << "in order of the error";
         last = model.at("error").at("profile");
