@@ -76,8 +76,8 @@ constexpr int plane_cells = 24;
 constexpr double plane_extent = 4;  // half the side, in transport mean free paths
 constexpr double worst_plane_noise = 0.25;
 
-// The analogue walk with its grid, folded at the plane of incidence. Counts are Poisson numbers, so exits tell how many
-// walks the noise needs.
+// The analogue walk with its grid, folded at the plane of incidence. Counts are Poisson numbers, so exits, of which the
+// walks of the shift know the part, tell how many walks the noise needs.
 void walkPlane(const HalfSpaceProblem& problem, const RankEffort& effort, std::uint64_t seed, Observer& observer,
                RankWalks& walks) {
     RankReference& reference = walks.reference;
@@ -89,13 +89,12 @@ void walkPlane(const HalfSpaceProblem& problem, const RankEffort& effort, std::u
     options.threads = effort.threads;
     options.edges_mm = {0, extent};
     Observer silent;
-    const HalfSpaceResult trial = walkHalfSpace(problem, options, silent);
+    const double collisions = std::max(costOf(walkHalfSpace(problem, options, silent)), 1.0) / analogue_trial;
     constexpr double cells = 0.5 * plane_cells * plane_cells;
     const double exits = 2 / std::numbers::pi * cells / (effort.plane_noise * effort.plane_noise);
-    const double needed = exits / std::max(trial.all.total.mean, 1.0 / analogue_trial);
-    const double allowed =
-        0.5 * effort.collisions * analogue_trial / static_cast<double>(std::max<std::uint64_t>(trial.collisions, 1));
-    if (effort.plane_noise * std::sqrt(needed / allowed) > worst_plane_noise) return;
+    const double needed = exits / walks.oblique.all.total.mean, allowed = 0.5 * effort.collisions / collisions;
+    // Written so that infinity and NaN, where nothing was seen to leave, are too much.
+    if (!(effort.plane_noise * std::sqrt(needed / allowed) <= worst_plane_noise)) return;
     options.walks = static_cast<std::uint64_t>(std::max<double>(analogue_trial, std::min(needed, allowed)));
     options.seed = seed;
     options.grid = plane_cells;
