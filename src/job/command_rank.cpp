@@ -55,7 +55,7 @@ JobResult runRank(const Job& job, Engine& engine, Observer& observer) {
     if (!job.output.empty() && !job.output.ends_with(".html"))
         throw usageError(fmt::format("'{}' is no page", job.output), "-o takes a file that ends in .html");
     const RankEffort effort = effortOf(job, options);
-    std::vector<RankEntry> entries = rankEntries(options.names("models"), options.text("backend"), engine);
+    std::vector<RankEntry> entries = rankEntries(options.names("models"), options.text("backend"), engine, observer);
     const std::vector<Subject> subjects = subjectsOf(job, engine, observer);
     const bool all = job.scene.material.id == every_material;
 

@@ -53,6 +53,12 @@ TEST_F(Rank, WritesAPageWithFigures) {
         EXPECT_THAT(page, HasSubstr(part));
 }
 
+TEST_F(Rank, SaysWhichModelsAreNotAboutAHalfSpaceOfTheMedium) {
+    const Output output = run("rank --sigma-a 0.1 --sigma-s 1 --noise 5 --json");
+    EXPECT_THAT(output.err, HasSubstr("gaussians is left out: it does not read the medium"));
+    for (const json& model : json::parse(output.out).at("models")) EXPECT_NE(model.at("id"), "gaussians");
+}
+
 TEST_F(Rank, RanksAModelOfOnesOwnBesideTheShippedOnes) {
     writeFile(folder() / "flat.csv", "r_mm, R_d\n0, 0.1\n1, 0.1\n2, 0\n");
     const Output output = run("rank --models dipole,./flat.csv --sigma-a 0.1 --sigma-s 1 --noise 5");
