@@ -17,7 +17,7 @@ namespace {
 constexpr std::string_view every_material = "all";
 
 // One material may take a minute, all of them no longer.
-constexpr double collisions_of_one = 4e9, collisions_of_all = 1.5e8;
+constexpr double collisions_of_one = 4e9, collisions_of_all = 1e8;
 
 std::vector<Subject> subjectsOf(const Job& job, Engine& engine, Observer& observer) {
     if (job.scene.material.id != every_material) return {comparableSubjectOf(job, engine)};
@@ -55,7 +55,7 @@ JobResult runRank(const Job& job, Engine& engine, Observer& observer) {
     if (!job.output.empty() && !job.output.ends_with(".html"))
         throw usageError(fmt::format("'{}' is no page", job.output), "-o takes a file that ends in .html");
     const RankEffort effort = effortOf(job, options);
-    std::vector<RankEntry> entries = rankEntries(options.names("models"), options.text("backend"), engine);
+    std::vector<RankEntry> entries = rankEntries(options.names("models"), options.text("backend"), engine, observer);
     const std::vector<Subject> subjects = subjectsOf(job, engine, observer);
     const bool all = job.scene.material.id == every_material;
 
@@ -107,30 +107,29 @@ Command rankCommand() {
     angle.min = 1;
     angle.value = 45.0;
     angle.doc = "of the beam whose shift is compared";
-    return {
-        .name = "rank",
-        .summary = "Put models in order of their error on a material, or on all: --material all",
-        .example = "searchlight rank --material white_grapefruit_juice -o rank.html",
-        .options = {option::models(),
-                    {.name = "noise",
-                     .unit = "%",
-                     .min = 0.01,
-                     .max = 50,
-                     .value = 0.5,
-                     .doc = "of the reference's R_d that is good enough; twice that of its shift"},
-                    {.name = "collisions",
-                     .min = 0,
-                     .max = 1e15,
-                     .value = 0.0,
-                     .doc = "of the reference per channel at most, noise or not; 0: 4e9, or 1.5e8 for all materials"},
-                    angle,
-                    option::bins(48),
-                    option::backend(),
-                    option::threads()},
-        .uses_material = true,
-        .uses_seed = true,
-        .output = "page: .html",
-        .run = runRank};
+    return {.name = "rank",
+            .summary = "Put models in order of their error on a material, or on all: --material all",
+            .example = "searchlight rank --material white_grapefruit_juice -o rank.html",
+            .options = {option::models(),
+                        {.name = "noise",
+                         .unit = "%",
+                         .min = 0.01,
+                         .max = 50,
+                         .value = 0.5,
+                         .doc = "of the reference's R_d that is good enough; twice that of its shift"},
+                        {.name = "collisions",
+                         .min = 0,
+                         .max = 1e15,
+                         .value = 0.0,
+                         .doc = "of the reference per channel at most, noise or not; 0: 4e9, or 1e8 for all materials"},
+                        angle,
+                        option::bins(48),
+                        option::backend(),
+                        option::threads()},
+            .uses_material = true,
+            .uses_seed = true,
+            .output = "page: .html",
+            .run = runRank};
 }
 
 }  // namespace searchlight

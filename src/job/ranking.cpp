@@ -38,7 +38,24 @@ double costOf(LoadedModel& loaded, double angle_deg) {
     return best / batch;
 }
 
+// A model of single scattering, to be added to those that leave it out.
+constexpr std::string_view single_id = "single";
+
+bool canTakeSingle(const Model& model) {
+    const auto ships = [](const Model& other) { return other.id == single_id; };
+    return !model.file.single_scattering && std::ranges::any_of(shippedModels(), ships);
+}
+
 }  // namespace
+
+std::string whyNotRanked(const Model& model) {
+    if (!readsMedium(model)) return "it does not read the medium";
+    for (const Param& param : model.file.parameters)
+        if (param.unit == "mm" || param.unit == "1/mm")
+            return fmt::format("its {} ({}) is not of the medium, so it is about more than a half-space", param.name,
+                               param.unit);
+    return {};
+}
 
 std::string Ranking::sentence(const RankedModel& model) const {
     const std::size_t worst = model.worst_channel;
@@ -46,12 +63,20 @@ std::string Ranking::sentence(const RankedModel& model) const {
     return channels.size() > 1 ? fmt::format("in {} {}", channelName(subject.medium, channels[worst]), text) : text;
 }
 
-std::vector<RankEntry> rankEntries(const std::vector<std::string>& names, std::string_view backend, Engine& engine) {
+std::vector<RankEntry> rankEntries(const std::vector<std::string>& names, std::string_view backend, Engine& engine,
+                                   Observer& observer) {
     std::vector<std::string> all = names;
     if (all == std::vector<std::string>{"all"}) {
         all.clear();
-        for (const Model& model : shippedModels())
-            if (readsMedium(model)) all.push_back(model.id);
+        for (const Model& model : shippedModels()) {
+            const std::string reason = whyNotRanked(model);
+            if (!reason.empty()) {
+                observer.log(LogLevel::info, fmt::format("{} is left out: {}", model.id, reason));
+                continue;
+            }
+            all.push_back(model.id);
+            if (canTakeSingle(model)) all.push_back(model.id + "+" + std::string(single_id));
+        }
     }
     if (all.empty()) throw usageError("no model was named", "--models dipole,better_dipole, or all");
     // Any medium will do until the material's is set.
@@ -79,6 +104,7 @@ Ranking rankOn(const Subject& subject, std::vector<RankEntry>& entries, const Ra
         ranking.reference.push_back(ranking.walks.back().reference);
     }
     const double entered = pencilBeam(medium.eta, 0).transmittance;
+    const double entered_oblique = pencilBeam(medium.eta, effort.angle_deg).transmittance;
     std::vector<std::vector<RankAnswer>> answers;
     for (RankEntry& entry : entries) {
         if (observer.cancelled()) throw interruptedError();
@@ -93,6 +119,10 @@ Ranking rankOn(const Subject& subject, std::vector<RankEntry>& entries, const Ra
                               .total = entered * total[reference.channel],
                               .mean_x_mm = mean_x[reference.channel]};
             for (Rgb& mean : answer.bin_means) mean = entered * mean;
+            if (!reference.plane.empty())
+                answer.plane = modelPlane(*loaded.evaluator, loaded.model, medium, effort.angle_deg, reference.channel,
+                                          reference.cells, reference.cell_mm);
+            for (double& mean : answer.plane) mean *= entered_oblique;
             channels.push_back(std::move(answer));
         }
         answers.push_back(std::move(channels));

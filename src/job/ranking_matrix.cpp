@@ -35,7 +35,7 @@ bool isDiffuse(const Ranking& ranking) { return meanAlbedo(ranking) >= diffuse_a
 // Materials on which an entry is nearest or not told from the nearest, and the medians of its errors on diffuse ones.
 struct Tally {
     int nearest = 0, nearest_diffuse = 0;
-    double profile = 0, shift = 0;
+    double profile = 0, shift = 0, oblique = 0, shape = 0;
 };
 
 double medianOf(std::vector<double> values) {
@@ -48,7 +48,7 @@ double medianOf(std::vector<double> values) {
 
 Tally tallyOf(std::span<const Ranking> rankings, std::size_t entry) {
     Tally tally;
-    std::vector<double> profiles, shifts;
+    std::vector<double> profiles, shifts, obliques, shapes;
     for (const Ranking& ranking : rankings) {
         const RankedModel& model = rankedOf(ranking, entry);
         tally.nearest += model.rank == 1;
@@ -56,26 +56,32 @@ Tally tallyOf(std::span<const Ranking> rankings, std::size_t entry) {
         tally.nearest_diffuse += model.rank == 1;
         profiles.push_back(model.profile);
         shifts.push_back(model.shift);
+        obliques.push_back(model.oblique);
+        shapes.push_back(model.shape);
     }
     tally.profile = medianOf(std::move(profiles));
     tally.shift = medianOf(std::move(shifts));
+    tally.oblique = medianOf(std::move(obliques));
+    tally.shape = medianOf(std::move(shapes));
     return tally;
 }
 
-// One row per material, a percentage per model; the smallest is marked where there is a mark for it.
+// One row per material, a percentage per model. `noise` is a member of RankingNoise.
 ReportTable matrixTable(std::span<const Ranking> rankings, const std::vector<RankEntry>& entries,
-                        double RankedModel::*error, bool marked) {
+                        double RankedModel::*error, double RankingNoise::*noise) {
     ReportTable table{.header = {"material", "α′", "g", "noise"}};
     for (const RankEntry& entry : entries) table.header.push_back(entry.label);
     for (const Ranking& ranking : rankings) {
-        const RankingNoise noise = rankingNoise(ranking);
         std::vector<std::string> row{ranking.subject.name, fmt::format("{:.4f}", meanAlbedo(ranking)),
                                      fmt::format("{:.2f}", meanOver(ranking, ranking.subject.medium.g)),
-                                     percentText(marked ? noise.profile : noise.shift)};
+                                     percentText(rankingNoise(ranking).*noise)};
         for (std::size_t m = 0; m < entries.size(); ++m) {
             const RankedModel& model = rankedOf(ranking, m);
-            const std::string_view mark = marked ? markOf(model) : "";
-            row.push_back(fmt::format("{} {}", percentText(model.*error), mark.empty() ? "\u2007" : mark));
+            row.push_back(percentText(model.*error));
+            if (error != &RankedModel::profile) continue;
+            // A space as wide as a digit keeps the numbers in line.
+            const std::string_view mark = markOf(model);
+            row.back() += fmt::format(" {}", mark.empty() ? "\u2007" : mark);
         }
         table.rows.push_back(std::move(row));
     }
@@ -108,9 +114,10 @@ std::string matrixText(std::span<const Ranking> rankings, const std::vector<Rank
         const Tally tally = tallyOf(rankings, m);
         text += fmt::format("{}{}: nearest, or not told from it, on {} of {} materials", m == 0 ? "\n" : "",
                             entries[m].id, tally.nearest, rankings.size());
-        text += fmt::format(", {} of {} with albedo' >= {}, where its median error is {} of R_d and {} of the shift\n",
-                            tally.nearest_diffuse, diffuse, diffuse_albedo, percentText(tally.profile),
-                            percentText(tally.shift));
+        text += fmt::format(", {} of {} with albedo' >= {}", tally.nearest_diffuse, diffuse, diffuse_albedo);
+        text +=
+            fmt::format("; median errors there: R_d {}, shift {}, oblique {}, shape {}\n", percentText(tally.profile),
+                        percentText(tally.shift), percentText(tally.oblique), percentText(tally.shape));
     }
     return text;
 }
@@ -132,18 +139,18 @@ Report matrixReport(std::span<const Ranking> rankings, const std::vector<RankEnt
     const auto diffuse = std::ranges::count_if(rankings, isDiffuse);
     ReportTable models{
         .caption = fmt::format("Nearest: also where the reference's noise does not tell it from the nearest. {} of {} "
-                               "materials have a mean α′ of at least {}; medians are over those.",
+                               "materials have a mean α′ of at least {}; errors are medians over those.",
                                diffuse, rankings.size(), diffuse_albedo),
-        .header = {"model", "nearest on", fmt::format("with α′ ≥ {}", diffuse_albedo), "median error of R_d",
-                   "median error of the shift", "one evaluation"}};
+        .header = {"model", "nearest on", fmt::format("with α′ ≥ {}", diffuse_albedo), "R_d", "shift", "oblique",
+                   "shape", "one evaluation"}};
     std::vector<ErrorsOverAlbedo> scatter;
     std::pair<int, std::string> most;
     for (std::size_t m = 0; m < entries.size(); ++m) {
         const Tally tally = tallyOf(rankings, m);
         if (tally.nearest_diffuse > most.first) most = {tally.nearest_diffuse, entries[m].label};
         models.rows.push_back({entries[m].label, std::to_string(tally.nearest), std::to_string(tally.nearest_diffuse),
-                               percentText(tally.profile), percentText(tally.shift),
-                               evaluationText(rankings.front().cost_ns[m])});
+                               percentText(tally.profile), percentText(tally.shift), percentText(tally.oblique),
+                               percentText(tally.shape), evaluationText(rankings.front().cost_ns[m])});
         ErrorsOverAlbedo errors{.label = entries[m].label};
         for (const Ranking& ranking : rankings)
             for (std::size_t i = 0; i < ranking.channels.size(); ++i) {
@@ -167,14 +174,20 @@ Report matrixReport(std::span<const Ranking> rankings, const std::vector<RankEnt
     first.tables.push_back(std::move(models));
     first.figures.push_back(errorsOverAlbedoFigure(scatter, "Error of R_d over absorption"));
     ReportSection second{.heading = "Materials"};
-    second.tables.push_back(matrixTable(rankings, entries, &RankedModel::profile, true));
-    second.tables.back().caption =
+    const auto add = [&](double RankedModel::*error, double RankingNoise::*noise, std::string caption) {
+        second.tables.push_back(matrixTable(rankings, entries, error, noise));
+        second.tables.back().caption = std::move(caption);
+    };
+    const std::string angle = prettyNumber(rankings.front().effort.angle_deg);
+    add(&RankedModel::profile, &RankingNoise::profile,
         "Error of R_d. *: nearest to the reference; =: not told from the nearest by its noise. " +
-        rankingMeaning(rankings.front());
-    second.tables.push_back(matrixTable(rankings, entries, &RankedModel::shift, false));
-    second.tables.back().caption =
-        fmt::format("Error of the shift under a beam at {}°; –: the true shift is lost in noise.",
-                    prettyNumber(rankings.front().effort.angle_deg));
+            rankingMeaning(rankings.front()));
+    add(&RankedModel::shift, &RankingNoise::shift,
+        fmt::format("Error of the shift under a beam at {}°; –: the true shift is lost in noise.", angle));
+    add(&RankedModel::oblique, &RankingNoise::plane,
+        fmt::format("Error of R_d(x, y) under a beam at {}°; –: too little light leaves to know it.", angle));
+    add(&RankedModel::shape, &RankingNoise::plane,
+        fmt::format("The same for the shape alone: models scaled to the true light. Beam at {}°.", angle));
     report.sections = {std::move(first), std::move(second)};
     return report;
 }

@@ -17,8 +17,11 @@ std::string noisePercent(double part) { return std::isfinite(part) ? fmt::format
 
 std::string noiseText(const Ranking& ranking) {
     const RankingNoise noise = rankingNoise(ranking);
-    return fmt::format("The reference is known to {:.2g} % of R_d, {:.2g} % of the total and {:.2g} % of the shift.",
-                       100 * noise.profile, 100 * noise.total, 100 * noise.shift);
+    std::string text = fmt::format("The reference is known to {:.2g} % of R_d, {:.2g} % of the total",
+                                   100 * noise.profile, 100 * noise.total);
+    if (std::isfinite(noise.shift)) text += fmt::format(", {:.2g} % of the shift", 100 * noise.shift);
+    if (std::isfinite(noise.plane)) text += fmt::format(", {:.2g} % of R_d under the oblique beam", 100 * noise.plane);
+    return text + ".";
 }
 
 // "1", or "1 =" where noise does not tell it from another.
@@ -48,6 +51,8 @@ Json scoreJson(const RankScore& score) {
             {"near_weight", score.near_weight},
             {"total", numberJson(score.total.mean)},
             {"shift", numberJson(score.shift.mean)},
+            {"oblique", numberJson(score.oblique)},
+            {"shape", numberJson(score.shape)},
             {"stderr", numberJson(score.standard_error)},
             {"near_share", score.place.near_share},
             {"half_mm", score.place.half_mm}};
@@ -75,27 +80,32 @@ Json referenceJson(const Ranking& ranking) {
                             {"walks", ranking.walks[i].normal.walks},
                             {"oblique_walks", ranking.walks[i].oblique.walks}});
     }
-    return {{"stderr", {{"profile", noise.profile}, {"total", noise.total}, {"shift", numberJson(noise.shift)}}},
+    return {{"stderr",
+             {{"profile", noise.profile},
+              {"total", noise.total},
+              {"shift", numberJson(noise.shift)},
+              {"oblique", numberJson(noise.plane)}}},
             {"angle_deg", ranking.effort.angle_deg},
             {"channels", channels}};
 }
 
 ReportTable rankingTable(const Ranking& ranking, const std::vector<RankEntry>& entries) {
-    ReportTable table{
-        .caption = rankingMeaning(ranking),
-        .header = {"rank", "model", "R_d", "±", "near", "far", "total", "shift", "one evaluation", "where it fails"}};
+    ReportTable table{.caption = rankingMeaning(ranking),
+                      .header = {"rank", "model", "R_d", "±", "near", "far", "total", "shift", "oblique", "shape",
+                                 "one evaluation", "where it fails"}};
     for (const RankedModel& model : ranking.ranked)
         table.rows.push_back({rankText(model), entries[model.model].label, percentText(model.profile),
                               noisePercent(model.standard_error), percentText(model.near), percentText(model.far),
-                              percentText(model.total), percentText(model.shift),
-                              evaluationText(ranking.cost_ns[model.model]), ranking.sentence(model)});
+                              percentText(model.total), percentText(model.shift), percentText(model.oblique),
+                              percentText(model.shape), evaluationText(ranking.cost_ns[model.model]),
+                              ranking.sentence(model)});
     return table;
 }
 
 ReportTable channelTable(const Ranking& ranking, const std::vector<RankEntry>& entries) {
-    ReportTable table{
-        .caption = "Errors with their sign where they have one. Split: 1/σt′.",
-        .header = {"channel", "model", "R_d", "near", "far", "total", "shift", "split", "where it fails"}};
+    ReportTable table{.caption = "Errors with their sign where they have one. Split: 1/σt′.",
+                      .header = {"channel", "model", "R_d", "near", "far", "total", "shift", "oblique", "shape",
+                                 "split", "where it fails"}};
     for (std::size_t i = 0; i < ranking.channels.size(); ++i)
         for (const RankedModel& model : ranking.ranked) {
             const RankScore& score = model.channels[i];
@@ -105,7 +115,8 @@ ReportTable channelTable(const Ranking& ranking, const std::vector<RankEntry>& e
             table.rows.push_back({channelName(ranking.subject.medium, ranking.channels[i]), entries[model.model].label,
                                   percentText(score.curve.weighted), percentText(score.curve.near),
                                   percentText(score.curve.far), with_sign(score.total.mean),
-                                  with_sign(score.shift.mean), prettyNumber(ranking.reference[i].split_mm, 3) + " mm",
+                                  with_sign(score.shift.mean), percentText(score.oblique), percentText(score.shape),
+                                  prettyNumber(ranking.reference[i].split_mm, 3) + " mm",
                                   failureText(ranking.reference[i], score, ranking.effort.angle_deg)});
         }
     return table;
@@ -126,11 +137,13 @@ Figure errorsFigure(const Ranking& ranking, const std::vector<RankEntry>& entrie
                         {ranked.near, ranked.near_error},
                         {ranked.far, ranked.far_error},
                         {ranked.total, std::sqrt(total)},
-                        {ranked.shift, std::sqrt(shift)}};
+                        {ranked.shift, std::sqrt(shift)},
+                        {ranked.oblique},
+                        {ranked.shape}};
     }
-    Figure figure = modelErrorsFigure(models, {"R_d", "near", "far", "total", "shift"},
+    Figure figure = modelErrorsFigure(models, {"R_d", "near", "far", "total", "shift", "oblique", "shape"},
                                       fmt::format("Errors on {}", ranking.subject.name));
-    figure.caption += fmt::format(" Shift under a beam at {}°; the others under a normal one.",
+    figure.caption += fmt::format(" Shift, oblique and shape under a beam at {}°; the others under a normal one.",
                                   prettyNumber(ranking.effort.angle_deg));
     return figure;
 }
@@ -140,7 +153,7 @@ Figure errorsFigure(const Ranking& ranking, const std::vector<RankEntry>& entrie
 std::string percentText(double part) {
     if (!std::isfinite(part)) return "–";
     // Beyond ten times the light a number tells no more than that.
-    return part > 10 ? "> 1000 %" : fmt::format("{:.1f} %", 100 * part);
+    return part > 10 ? ">1000 %" : fmt::format("{:.1f} %", 100 * part);
 }
 
 std::string evaluationText(double ns) { return prettyNumber(ns, 2) + " ns"; }
@@ -148,12 +161,24 @@ std::string evaluationText(double ns) { return prettyNumber(ns, 2) + " ns"; }
 RankingNoise rankingNoise(const Ranking& ranking) {
     RankingNoise noise;
     const double count = static_cast<double>(ranking.channels.size());
+    int shifts = 0, planes = 0;
     for (std::size_t i = 0; i < ranking.channels.size(); ++i) {
         const RankReference& reference = ranking.reference[i];
-        noise.profile += ranking.ranked.front().channels[i].curve.noise / count;
+        const RankScore& any = ranking.ranked.front().channels[i];
+        noise.profile += any.curve.noise / count;
         noise.total += reference.total.standard_error / reference.total.mean / count;
-        noise.shift += reference.mean_x_mm.standard_error / std::abs(reference.mean_x_mm.mean) / count;
+        if (!std::isnan(any.shift.mean)) {
+            noise.shift += reference.mean_x_mm.standard_error / std::abs(reference.mean_x_mm.mean);
+            ++shifts;
+        }
+        if (!reference.plane.empty()) {
+            noise.plane += any.oblique_noise;
+            ++planes;
+        }
     }
+    // NaN where no channel's is known.
+    noise.shift /= shifts;
+    noise.plane /= planes;
     return noise;
 }
 
@@ -162,21 +187,25 @@ std::string rankingMeaning(const Ranking& ranking) {
         "R_d: ∫ |model − reference| 2πr dr over ∫ reference 2πr dr, under a normal beam; near and far: the same within "
         "and beyond one transport mean free path 1/σt′, each over its own light. Total: diffuse reflectance. Shift: "
         "mean "
-        "x under a beam at {}°; 100 % is no shift at all. {} Rank =: the reference's noise does not tell it from "
-        "another.",
+        "x under a beam at {0}°; 100 % is no shift at all. Oblique: ∫ |model − reference| over the plane under that "
+        "beam, "
+        "to four mean free paths; shape: after scaling the model to the true light. {1}Rank =: the reference's noise "
+        "does "
+        "not tell it from another.",
         prettyNumber(ranking.effort.angle_deg),
-        ranking.channels.size() > 1 ? "Means over the channels that scatter." : "");
+        ranking.channels.size() > 1 ? "Means over the channels that scatter. " : "");
 }
 
 std::string rankingText(const Ranking& ranking, const std::vector<RankEntry>& entries) {
     std::string text = summaryOf(ranking, entries) + "\n" + noiseText(ranking) + "\n\n" +
-                       fmt::format("{:<5} {:<36} {:>8} {:>7} {:>8} {:>8} {:>8} {:>8} {:>8}\n", "rank", "model", "R_d",
-                                   "+-", "near", "far", "total", "shift", "cost");
+                       fmt::format("{:<5} {:<36} {:>8} {:>7} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8}\n", "rank",
+                                   "model", "R_d", "+-", "near", "far", "total", "shift", "oblique", "shape", "cost");
     for (const RankedModel& model : ranking.ranked)
-        text += fmt::format("{:<5} {:<36} {:>8} {:>7} {:>8} {:>8} {:>8} {:>8} {:>8}\n", rankText(model),
+        text += fmt::format("{:<5} {:<36} {:>8} {:>7} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8}\n", rankText(model),
                             entries[model.model].id, percentText(model.profile), noisePercent(model.standard_error),
                             percentText(model.near), percentText(model.far), percentText(model.total),
-                            percentText(model.shift), evaluationText(ranking.cost_ns[model.model]));
+                            percentText(model.shift), percentText(model.oblique), percentText(model.shape),
+                            evaluationText(ranking.cost_ns[model.model]));
     text += "\n";
     for (const RankedModel& model : ranking.ranked)
         text += fmt::format("{}: {}.\n", entries[model.model].id, ranking.sentence(model));
@@ -204,6 +233,8 @@ Json rankingJson(const Ranking& ranking, const std::vector<RankEntry>& entries) 
                             {"far", numberJson(model.far)},
                             {"total", numberJson(model.total)},
                             {"shift", numberJson(model.shift)},
+                            {"oblique", numberJson(model.oblique)},
+                            {"shape", numberJson(model.shape)},
                             {"stderr", numberJson(model.standard_error)}}},
                           {"cost_ns", ranking.cost_ns[model.model]},
                           {"fails", ranking.sentence(model)},

@@ -10,14 +10,15 @@
 
 namespace searchlight {
 
-/// "12.3 %", "> 1000 %", or a dash for what is not finite.
+/// "12.3 %", ">1000 %", or a dash for what is not finite.
 std::string percentText(double part);
 /// "66 ns"
 std::string evaluationText(double ns);
 
-/// How well the reference is known, relative, mean over the channels.
+/// How well the reference is known, relative, mean over the channels; the shift and R_d(x, y) of the oblique
+/// beam over those where they are known at all.
 struct RankingNoise {
-    double profile = 0, total = 0, shift = 0;
+    double profile = 0, total = 0, shift = 0, plane = 0;
 };
 RankingNoise rankingNoise(const Ranking& ranking);
 

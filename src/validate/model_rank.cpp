@@ -91,6 +91,36 @@ Estimate relativeError(double value, const Estimate& truth) {
     return {ratio - 1, std::abs(ratio) * truth.standard_error / std::abs(truth.mean)};
 }
 
+// Fills oblique, shape and oblique_noise.
+void comparePlanes(const RankReference& reference, const RankAnswer& answer, RankScore& score) {
+    const auto sumOf = [](const std::vector<double>& values) {
+        return std::accumulate(values.begin(), values.end(), 0.0);
+    };
+    score.oblique = score.shape = score.oblique_noise = nan;
+    if (reference.plane.empty() || answer.plane.empty()) return;
+    const double light = sumOf(reference.plane), scale = light / sumOf(answer.plane);
+    double off = 0, off_scaled = 0;
+    for (std::size_t i = 0; i < reference.plane.size(); ++i) {
+        off += std::abs(answer.plane[i] - reference.plane[i]);
+        off_scaled += std::abs(scale * answer.plane[i] - reference.plane[i]);
+    }
+    score.oblique = off / light;
+    score.shape = off_scaled / light;
+    score.oblique_noise = std::sqrt(2 / std::numbers::pi) * sumOf(reference.plane_error) / light;
+}
+
+// The mean of what is known.
+struct KnownMean {
+    double sum = 0;
+    int count = 0;
+    void add(double value) {
+        if (std::isnan(value)) return;
+        sum += value;
+        ++count;
+    }
+    double value() const { return count > 0 ? sum / count : nan; }
+};
+
 std::string percent(double part) { return fmt::format("{:.0f} %", 100 * part); }
 
 // Below this an error has both signs: a quarter of it to one side, three quarters to the other.
@@ -159,6 +189,7 @@ RankScore rankScore(const RankReference& reference, const RankAnswer& answer) {
     // A shift within three standard errors of 0 is none that an error could be relative to.
     score.shift =
         std::abs(shift.mean) > 3 * shift.standard_error ? relativeError(answer.mean_x_mm, shift) : Estimate{nan, nan};
+    comparePlanes(reference, answer, score);
     score.place = placeOf(reference, annuli, off);
     return score;
 }
@@ -198,14 +229,16 @@ std::vector<RankedModel> rankModels(std::span<const RankReference> references,
     std::vector<RankedModel> ranked;
     for (std::size_t m = 0; m < answers.size(); ++m) {
         RankedModel model{.model = m};
-        double shifts = 0;
+        KnownMean shift, oblique, shape;
         for (std::size_t i = 0; i < references.size(); ++i) {
             const RankScore score = rankScore(references[i], answers[m][i]);
             model.profile += score.curve.weighted / count;
             model.near += score.curve.near / count;
             model.far += score.curve.far / count;
             model.total += std::abs(score.total.mean) / count;
-            if (!std::isnan(score.shift.mean)) model.shift += std::abs(score.shift.mean), ++shifts;
+            shift.add(std::abs(score.shift.mean));
+            oblique.add(score.oblique);
+            shape.add(score.shape);
             model.standard_error = std::hypot(model.standard_error, score.standard_error / count);
             model.near_error = std::hypot(model.near_error, score.near_error / count);
             model.far_error = std::hypot(model.far_error, score.far_error / count);
@@ -213,7 +246,9 @@ std::vector<RankedModel> rankModels(std::span<const RankReference> references,
                 model.worst_channel = i;
             model.channels.push_back(score);
         }
-        model.shift = shifts > 0 ? model.shift / shifts : nan;
+        model.shift = shift.value();
+        model.oblique = oblique.value();
+        model.shape = shape.value();
         ranked.push_back(std::move(model));
     }
     const auto known = [](const RankedModel& model) { return std::isfinite(model.profile); };

@@ -19,6 +19,11 @@ struct RankReference {
     Estimate total;                       ///< diffuse reflectance under a normal beam
     double split_mm = 0;                  ///< divides near from far: one transport mean free path, 1 / sigma_t'
     Estimate mean_x_mm;                   ///< mean exit point of an oblique beam, which leans towards +x
+    /// R_d(x, y) of the same beam, means over square cells: rows of `cells` from -x to +x, cells / 2 rows from the
+    /// plane of incidence outwards; both sides of it are one. Empty: not known.
+    int cells = 0;
+    double cell_mm = 0;
+    std::vector<double> plane, plane_error;
 };
 
 /// What a model says about the same.
@@ -26,6 +31,7 @@ struct RankAnswer {
     std::vector<Rgb> bin_means;
     double total = 0;
     double mean_x_mm = 0;
+    std::vector<double> plane;  ///< as the reference's; or empty
 };
 
 /// Where the error of a model lies; parts of the integral of |model - reference| 2 pi r dr.
@@ -38,8 +44,8 @@ struct ErrorPlace {
 
 /// One model on one channel.
 struct RankScore {
-    CurveError curve;           ///< profile, near and far; each relative to the light that leaves there
-    double near_weight = 0;     ///< light of the near field; weighted = near_weight near + (1 - near_weight) far
+    CurveError curve;        ///< profile, near and far; each relative to the light that leaves there
+    double near_weight = 0;  ///< light of the near field; weighted = near_weight near + (1 - near_weight) far
     /// Of curve.weighted, curve.near and curve.far, from that of the reference.
     double standard_error = 0, near_error = 0, far_error = 0;
     /// What noise adds to curve.weighted on average, since errors of either sign count: all of it for a perfect model,
@@ -47,6 +53,10 @@ struct RankScore {
     double inflation = 0;
     Estimate total;  ///< relative error of the total, with its sign
     Estimate shift;  ///< relative error of mean x, with its sign: -1 for no shift; NaN: the shift is lost in noise
+    /// Integral of |model - reference| over the plane of the oblique beam over that of the reference; `shape`: after
+    /// the model was scaled to the reference's light there. NaN: not known.
+    double oblique = 0, shape = 0;
+    double oblique_noise = 0;  ///< what a perfect model would show
     ErrorPlace place;
 };
 
@@ -69,8 +79,9 @@ std::string failureText(const RankReference& reference, const RankScore& score, 
 struct RankedModel {
     std::size_t model = 0;  ///< index into the answers
     int rank = 1;           ///< 1 + the number of models that are nearer to the reference beyond its noise
-    /// Means over the channels of the absolute errors; a channel without a known shift is left out of `shift`.
-    double profile = 0, near = 0, far = 0, total = 0, shift = 0;
+    /// Means over the channels of the absolute errors; a channel where the shift or the plane is
+    /// not known is left out of those.
+    double profile = 0, near = 0, far = 0, total = 0, shift = 0, oblique = 0, shape = 0;
     double standard_error = 0, near_error = 0, far_error = 0;  ///< of profile, near and far
     std::vector<RankScore> channels;
     std::vector<std::size_t> ties;  ///< models (indices into the answers) that noise does not tell from this one

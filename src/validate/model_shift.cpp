@@ -35,4 +35,20 @@ Rgb modelMeanX(Evaluator& evaluator, const Model& model, const Medium& medium, d
     return moment / total;
 }
 
+std::vector<double> modelPlane(Evaluator& evaluator, const Model& model, const Medium& medium, double angle_deg,
+                               int channel, int cells, double cell_mm) {
+    const int side = model.file.no_wo ? 8 : 2, rows = cells / 2;
+    std::vector<Vec3> points;
+    for (int y = 0; y < rows; ++y)
+        for (int x = 0; x < cells; ++x)
+            for (int k = 0; k < side * side; ++k)
+                points.push_back(
+                    {cell_mm * (x - rows + (k % side + 0.5) / side), cell_mm * (y + (k / side + 0.5) / side), 0});
+    const std::vector<Rgb> Rd = planeRd(evaluator, model, medium, angle_deg, points);
+    std::vector<double> means(static_cast<std::size_t>(rows * cells));
+    const auto count = static_cast<std::size_t>(side * side);
+    for (std::size_t i = 0; i < Rd.size(); ++i) means[i / count] += Rd[i][channel] / static_cast<double>(count);
+    return means;
+}
+
 }  // namespace searchlight

@@ -71,6 +71,47 @@ HalfSpaceResult walkTo(const HalfSpaceProblem& problem, const std::vector<double
     return walkHalfSpace(problem, options, observer);
 }
 
+// Of the square in which R_d(x, y) is compared: a third of a mean free path each.
+constexpr int plane_cells = 24;
+constexpr double plane_extent = 4;  // half the side, in transport mean free paths
+constexpr double worst_plane_noise = 0.25;
+
+// The analogue walk with its grid, folded at the plane of incidence. Counts are Poisson numbers, so exits, of which the
+// walks of the shift know the part, tell how many walks the noise needs.
+void walkPlane(const HalfSpaceProblem& problem, const RankEffort& effort, std::uint64_t seed, Observer& observer,
+               RankWalks& walks) {
+    RankReference& reference = walks.reference;
+    const double extent = plane_extent * reference.split_mm;
+    HalfSpaceOptions options;
+    options.walks = analogue_trial;
+    options.seed = ~seed;
+    options.estimator = Estimator::analogue;
+    options.threads = effort.threads;
+    options.edges_mm = {0, extent};
+    Observer silent;
+    const double collisions = std::max(costOf(walkHalfSpace(problem, options, silent)), 1.0) / analogue_trial;
+    constexpr double cells = 0.5 * plane_cells * plane_cells;
+    const double exits = 2 / std::numbers::pi * cells / (effort.plane_noise * effort.plane_noise);
+    const double needed = exits / walks.oblique.all.total.mean, allowed = 0.5 * effort.collisions / collisions;
+    // Written so that infinity and NaN, where nothing was seen to leave, are too much.
+    if (!(effort.plane_noise * std::sqrt(needed / allowed) <= worst_plane_noise)) return;
+    options.walks = static_cast<std::uint64_t>(std::max<double>(analogue_trial, std::min(needed, allowed)));
+    options.seed = seed;
+    options.grid = plane_cells;
+    options.grid_extent_mm = extent;
+    walks.plane = walkHalfSpace(problem, options, observer);
+    reference.cells = plane_cells;
+    reference.cell_mm = 2 * extent / plane_cells;
+    const std::vector<double>&grid = walks.plane.all.grid, &error = walks.plane.all.grid_standard_error;
+    for (std::size_t y = 0; y < plane_cells / 2; ++y)
+        for (std::size_t x = 0; x < plane_cells; ++x) {
+            const std::size_t above = (plane_cells / 2 + y) * plane_cells + x;
+            const std::size_t below = (plane_cells / 2 - 1 - y) * plane_cells + x;
+            reference.plane.push_back(0.5 * (grid[above] + grid[below]));
+            reference.plane_error.push_back(0.5 * std::hypot(error[above], error[below]));
+        }
+}
+
 }  // namespace
 
 std::vector<double> rankEdges(const HalfSpaceProblem& problem, int bins) {
@@ -104,6 +145,8 @@ RankWalks walkForRank(const Medium& medium, int channel, const RankEffort& effor
     reference.total = walks.normal.all.total;
     reference.split_mm = 1 / medium.sigmaTp()[channel];
     reference.mean_x_mm = walks.oblique.all.mean_x_mm;
+    walkPlane(halfSpaceProblem(medium, channel, effort.angle_deg), effort,
+              streamSeed(effort.seed, 2 * Rgb::channels + channel), observer, walks);
     return walks;
 }
 

@@ -12,8 +12,9 @@ namespace searchlight {
 struct RankEffort {
     double noise = 0.005;       ///< of the profile: CurveError::noise
     double shift_noise = 0.01;  ///< relative standard error of mean x
-    /// Of the profile and again half of it of the shift, in collisions of the analogue walk, some 2 to 4 ns of one core
-    /// each. What it buys stands in the standard errors.
+    double plane_noise = 0.03;  ///< of R_d(x, y) of the oblique beam, as CurveError::noise
+    /// Of the profile, and again half of it each of the shift and of R_d(x, y), in collisions of the analogue walk,
+    /// some 2 to 4 ns of one core each. What it buys stands in the standard errors.
     double collisions = 1e9;
     int bins = 48;
     double angle_deg = 45;  ///< of the oblique beam
@@ -23,8 +24,8 @@ struct RankEffort {
 
 struct RankWalks {
     RankReference reference;
-    HalfSpaceResult normal, oblique;
-    bool exact = false;  ///< the normal beam was solved without walks
+    HalfSpaceResult normal, oblique, plane;  ///< plane: without walks where the work allowed would tell too little
+    bool exact = false;                      ///< the normal beam was solved without walks
 };
 
 /// Annuli from the beam to where 0.1 % of the light has not yet left, widths growing with the radius, and one more edge

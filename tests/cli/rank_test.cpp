@@ -20,7 +20,7 @@ TEST_F(Rank, JsonHasAllThatADocumentNeeds) {
     double last = 0;
     for (const json& model : document.at("models")) {
         EXPECT_TRUE(model.at("id") == "dipole" || model.at("id") == "better_dipole");
-        for (const char* kind : {"profile", "near", "far", "total", "shift", "stderr"})
+        for (const char* kind : {"profile", "near", "far", "total", "shift", "oblique", "shape", "stderr"})
             EXPECT_TRUE(model.at("error").at(kind).is_number()) << kind;
         EXPECT_GE(model.at("error").at("profile"), last) << "in order of the error";
         last = model.at("error").at("profile");
@@ -51,6 +51,12 @@ TEST_F(Rank, WritesAPageWithFigures) {
     const std::string page = readFile(folder() / "rank.html");
     for (const char* part : {"Classical dipole", "<svg", "Errors on", "Searchlight profile", "where it fails"})
         EXPECT_THAT(page, HasSubstr(part));
+}
+
+TEST_F(Rank, SaysWhichModelsAreNotAboutAHalfSpaceOfTheMedium) {
+    const Output output = run("rank --sigma-a 0.1 --sigma-s 1 --noise 5 --json");
+    EXPECT_THAT(output.err, HasSubstr("gaussians is left out: it does not read the medium"));
+    for (const json& model : json::parse(output.out).at("models")) EXPECT_NE(model.at("id"), "gaussians");
 }
 
 TEST_F(Rank, RanksAModelOfOnesOwnBesideTheShippedOnes) {

@@ -36,6 +36,13 @@ TEST(ModelErrorsFigure, RefusesAModelWithoutAllKinds) {
     }
 }
 
+TEST(ModelErrorsFigure, SaysWhatIsBeyondTheFrame) {
+    const std::vector<ModelErrors> models{{"a", {{11}, {0.2}}}};
+    const Figure figure = modelErrorsFigure(models, {"near", "far"}, "Errors");
+    EXPECT_THAT(figure.series[0].y, ElementsAre(20));
+    EXPECT_THAT(figure.caption, testing::HasSubstr(" 1 dot above 1000 % not drawn."));
+}
+
 TEST(ErrorsOverAlbedoFigure, DrawsADotForEachMedium) {
     const std::vector<ErrorsOverAlbedo> models{{"a", {0.5, 0.99}, {0.1, 0.2}}};
     const Figure figure = errorsOverAlbedoFigure(models, "Errors");

@@ -156,6 +156,23 @@ TEST(ModelRank, AShiftThatIsLostInNoiseIsNotCompared) {
     EXPECT_THAT(failureText(reference, score, 45), Not(HasSubstr("shift")));
 }
 
+TEST(ModelRank, PlanesAreComparedAsTheyAreAndInShape) {
+    RankReference reference = twoAnnuli();
+    reference.plane = {1, 2, 3, 4};
+    reference.plane_error = {0.1, 0.1, 0.1, 0.1};
+    RankAnswer model = answer(1, 1);
+    model.plane = {2, 4, 6, 8};
+    const RankScore twice = rankScore(reference, model);
+    EXPECT_THAT(twice.oblique, DoubleNear(1, rounding));
+    EXPECT_THAT(twice.shape, DoubleNear(0, rounding));
+    EXPECT_THAT(twice.oblique_noise, DoubleNear(std::sqrt(2 / std::numbers::pi) * 0.4 / 10, rounding));
+    model.plane = {4, 3, 2, 1};
+    const RankScore mirrored = rankScore(reference, model);
+    EXPECT_THAT(mirrored.oblique, DoubleNear(0.8, rounding));
+    EXPECT_THAT(mirrored.shape, DoubleNear(0.8, rounding));
+    EXPECT_TRUE(std::isnan(rankScore(twoAnnuli(), answer(1, 1)).oblique)) << "there is nothing to compare with";
+}
+
 // The sentence about a model whose light is `inner` near the beam and 3 `outer` away from it.
 std::string sentence(double inner, double outer, double mean_x = 0.5, const RankReference& reference = twoAnnuli()) {
     RankAnswer model = answer(inner, outer);

@@ -58,6 +58,31 @@ TEST(RankWalk, DoesNotDependOnThreads) {
     EXPECT_EQ(a.mean_x_mm.mean, b.mean_x_mm.mean);
 }
 
+TEST(RankWalk, FoldsThePlaneAndKeepsItsLight) {
+    Observer observer;
+    const RankWalks walks = walkForRank(mediumOf(0.05, 1, 0, 1.3), 0, {.collisions = 1e8}, observer);
+    const RankReference& reference = walks.reference;
+    ASSERT_EQ(reference.plane.size(), 24u * 12u);
+    double light = 0, moment = 0;
+    for (std::size_t i = 0; i < reference.plane.size(); ++i) {
+        light += 2 * reference.plane[i] * reference.cell_mm * reference.cell_mm;
+        moment += reference.plane[i] * (static_cast<double>(i % 24) - 11.5);
+    }
+    double whole = 0;
+    for (const double Rd : walks.plane.all.grid) whole += Rd * reference.cell_mm * reference.cell_mm;
+    EXPECT_NEAR(light, whole, 1e-12);
+    EXPECT_GT(moment, 0) << "the refracted beam leans towards +x";
+    EXPECT_LT(rankScore(reference, {.bin_means = reference.Rd, .total = 1, .plane = reference.plane}).oblique_noise,
+              0.04);
+}
+
+TEST(RankWalk, LeavesOutAPlaneThatItCouldNotKnow) {
+    Observer observer;
+    const RankWalks walks = walkForRank(mediumOf(1, 0.01, 0.9, 1.3), 0, {.collisions = 1e6}, observer);
+    EXPECT_TRUE(walks.reference.plane.empty());
+    EXPECT_EQ(walks.plane.walks, 0u);
+}
+
 TEST(RankWalk, StopsWhenItIsTold) {
     struct Impatient : Observer {
         bool cancelled() const override { return true; }
@@ -82,6 +107,22 @@ TEST(ModelShift, IsTheMeanOfADisplacedGaussian) {
     EXPECT_EQ(modelMeanX(*evaluator, formula.model, medium, 0).r, 0);
     formula.model.file.no_wi = true;
     EXPECT_EQ(modelMeanX(*evaluator, formula.model, medium, 45).r, 0);
+}
+
+TEST(ModelPlane, HasTheMeansOfItsCells) {
+    FormulaModel formula;
+    // Linear in x, so that the mean of a cell is the value at its middle, whatever the points; from -x outwards.
+    formula.value = [](const Medium&, int, const ParamValues&, const Query& query) {
+        return 10 + query.xo.x + 100 * query.xo.y;
+    };
+    const Medium medium = mediumOf(0.1, 0.4, 0, 1.3);
+    const auto evaluator = formula.factory()(formula.model, "cpu");
+    evaluator->set(medium, {});
+    const std::vector<double> means = modelPlane(*evaluator, formula.model, medium, 45, 0, 4, 0.5);
+    ASSERT_EQ(means.size(), 8u);
+    EXPECT_NEAR(means[0], 10 - 0.75 + 25, 1e-12);
+    EXPECT_NEAR(means[3], 10 + 0.75 + 25, 1e-12);
+    EXPECT_NEAR(means[4], 10 - 0.75 + 75, 1e-12);
 }
 
 }  // namespace
