@@ -28,6 +28,8 @@ ProfileData parseDocument(const std::string& text, const std::string& path, cons
         throw inputError("the walks were not in a half-space", "expected a document of reference halfspace");
     if (document.value("angle_deg", 0.0) != 0)
         throw inputError("the beam was oblique", "a fit needs a profile at normal incidence");
+    if (document.contains("beam") && document.at("beam").at("radius_mm") != 0.0)
+        throw inputError("the beam was wide", "a fit needs a profile of a pencil beam");
     const Json& material = document.at("material");
     ProfileData profile;
     profile.title = material.value("name", path);
