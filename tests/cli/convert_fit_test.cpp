@@ -62,6 +62,30 @@ TEST_F(Program, FitsWhatProfileAndReferenceWrite) {
     EXPECT_EQ(run("fit --profile reference.json --model dipole --order multiple").exit_code, 0);
 }
 
+TEST_F(Program, RefusesDocumentsThatAreNoProfile) {
+    const auto message = [&](const std::string& text) {
+        writeFile(folder() / "x.json", text);
+        return run("fit --profile x.json").err;
+    };
+    const std::string head = R"({"format":"searchlight-profile/1","per":"transmitted","material":{"eta":1.3},)";
+    EXPECT_EQ(
+        message("{}"),
+        "searchlight: x.json: no profile (expected the document that `reference halfspace` or `profile` writes)\n");
+    EXPECT_EQ(message(R"({"format":"searchlight-fit/1"})"),
+              "searchlight: x.json: 'searchlight-fit/1' is no profile (expected searchlight-reference/1 or "
+              "searchlight-profile/1)\n");
+    EXPECT_EQ(message(head + R"("radii_mm":[1,1],"Rd":[[1,1]]})"),
+              "searchlight: x.json: the radii do not ascend (radii are at least 0 and grow)\n");
+    EXPECT_EQ(message(head + R"("radii_mm":[1,2],"Rd":[[1,1],[1,1]]})"),
+              "searchlight: x.json: the profile has 2 channels (expected 1 or 3)\n");
+    EXPECT_EQ(message(head + R"("radii_mm":[1,2],"Rd":[[1]]})"),
+              "searchlight: x.json: the profile's lists differ in length\n");
+    EXPECT_EQ(message(head + R"("radii_mm":[1,2],"Rd":[[null]]})"),
+              "searchlight: x.json: channel 0 does not scatter (a fit needs values in every channel)\n");
+    EXPECT_EQ(message(head + R"("angle_deg":30,"radii_mm":[1,2],"Rd":[[1,2]]})"),
+              "searchlight: x.json: the beam was oblique (a fit needs a profile at normal incidence)\n");
+}
+
 TEST_F(Program, TheFitsOwnLineGivesItsCurve) {
     ASSERT_EQ(run("profile --model gaussians --radii 0.02,0.05,0.1,0.2,0.3,0.5,0.8,1.2,2,3,4,5 -o skin.csv").exit_code,
               0);
