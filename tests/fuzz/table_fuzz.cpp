@@ -1,4 +1,5 @@
-// Tables that users bring, materials, measured profiles, data to fit to and phase functions: either read or refused with a place.
+// Tables that users bring, materials, measured profiles, data to fit to and phase functions: either read or refused
+// with a place.
 #include <cstdint>
 #include <cstdlib>
 
