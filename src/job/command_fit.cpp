@@ -197,6 +197,10 @@ Result fitModel(const Options& options, const ProfileData& data, FitWeight weigh
         } else if (!burley)
             set += fmt::format("{}{}={}", set.empty() ? "" : ",", parameters[j].name, values[j].front());
     }
+    if (!set.empty() && fits.size() > 1)
+        result.warnings.push_back(
+            "each channel was fitted apart, and a model has its parameters once: the line below has "
+            "those of R");
     if (medium) result.settings += fmt::format(" --g {} --eta {}", numberText(fitted.g), numberText(fitted.eta));
     if (!set.empty()) result.settings += " --set " + set;
     if (burley)
@@ -247,6 +251,11 @@ JobResult runFit(const Job& job, Engine& engine, Observer& observer) {
         throw usageError("--count belongs to --model gaussians", "leave it out");
     if (options.given("total") && model != "gaussians")
         throw usageError("--total belongs to --model gaussians", "leave it out");
+    if (model == "gaussians" || model == "burley")
+        for (const char* name : {"set", "free"})
+            if (options.given(name))
+                throw usageError(fmt::format("--{} belongs to a model with parameters", name),
+                                 fmt::format("--model {} has none to choose from", model));
     ProfileData data = readFitInput(options.text("profile"), options.text("order"));
     for (FitData& channel : data.channels)
         channel = between(channel, options.number("radii_min"), options.number("radii_max"));

@@ -28,6 +28,8 @@ ProfileData parseDocument(const std::string& text, const std::string& path, cons
         throw inputError("the walks were not in a half-space", "expected a document of reference halfspace");
     if (document.value("angle_deg", 0.0) != 0)
         throw inputError("the beam was oblique", "a fit needs a profile at normal incidence");
+    if (document.contains("beam") && document.at("beam").at("radius_mm") != 0.0)
+        throw inputError("the beam was wide", "a fit needs a profile of a pencil beam");
     const Json& material = document.at("material");
     ProfileData profile;
     profile.title = material.value("name", path);
@@ -38,16 +40,25 @@ ProfileData parseDocument(const std::string& text, const std::string& path, cons
     FitData radii;
     if (walked) {
         radii.edges_mm = table.at("edges_mm").get<std::vector<double>>();
-        for (std::size_t i = 0; i + 1 < radii.edges_mm.size(); ++i)
+        for (std::size_t i = 0; i + 1 < radii.edges_mm.size(); ++i) {
+            if (radii.edges_mm[i] < 0 || radii.edges_mm[i + 1] <= radii.edges_mm[i])
+                throw inputError("the edges of the annuli do not ascend", "edges are at least 0 and grow");
             radii.radii_mm.push_back(0.5 * (radii.edges_mm[i] + radii.edges_mm[i + 1]));
+        }
     } else
         radii.radii_mm = table.at("radii_mm").get<std::vector<double>>();
-    for (std::size_t c = 0; c < table.at("Rd").size(); ++c) {
+    for (std::size_t i = 0; i < radii.radii_mm.size(); ++i)
+        if (radii.radii_mm[i] < 0 || (i > 0 && radii.radii_mm[i] <= radii.radii_mm[i - 1]))
+            throw inputError("the radii do not ascend", "radii are at least 0 and grow");
+    const Json& rows = table.at("Rd");
+    if (rows.size() != 1 && rows.size() != 3)
+        throw inputError(fmt::format("the profile has {} channels", rows.size()), "expected 1 or 3");
+    for (std::size_t c = 0; c < rows.size(); ++c) {
         FitData data = radii;
-        if (table.at("Rd")[c].empty() || table.at("Rd")[c][0].is_null())
+        if (rows.at(c).empty() || rows.at(c).at(0).is_null())
             throw inputError(fmt::format("channel {} does not scatter", c), "a fit needs values in every channel");
-        data.value = table.at("Rd")[c].get<std::vector<double>>();
-        if (walked) data.standard_error = table.at("stderr")[c].get<std::vector<double>>();
+        data.value = rows.at(c).get<std::vector<double>>();
+        if (walked) data.standard_error = table.at("stderr").at(c).get<std::vector<double>>();
         if (data.value.size() != data.radii_mm.size() || (walked && data.standard_error.size() != data.value.size()))
             throw inputError("the profile's lists differ in length");
         for (std::size_t i = 0; i < data.value.size(); ++i) {

@@ -156,8 +156,9 @@ double residualVariance(FitWeight weight, double reduced_chi2) {
 FitResiduals residualsOf(const FitData& data, const std::vector<double>& weights, std::vector<double> model) {
     FitResiduals result;
     const std::vector<double> area = areas(data);
-    double squares = 0, difference = 0, sum = 0;
+    double squares = 0, difference = 0, sum = 0, most = 0;
     int relatives = 0;
+    for (std::size_t i = 0; i < model.size(); ++i) most = std::max(most, fluxPerOctave(data, i));
     for (std::size_t i = 0; i < model.size(); ++i) {
         const double deviation = model[i] - data.value[i];
         result.relative.push_back(data.value[i] != 0 ? deviation / data.value[i] : nan);
@@ -167,7 +168,7 @@ FitResiduals residualsOf(const FitData& data, const std::vector<double>& weights
         if (!(weights[i] > 0)) continue;
         ++result.used;
         result.chi2 += result.weighted.back() * result.weighted.back();
-        if (!(data.value[i] > 0)) continue;
+        if (!(fluxPerOctave(data, i) > least_flux * most)) continue;
         if (!data.standard_error.empty() && data.standard_error[i] > largest_error * data.value[i]) continue;
         squares += result.relative.back() * result.relative.back();
         ++relatives;

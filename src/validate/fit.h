@@ -56,7 +56,7 @@ struct FitResiduals {
     std::vector<double> weighted;  ///< times its weight
     int used = 0;                  ///< data with a weight
     double chi2 = 0;               ///< sum of squares of `weighted`
-    double rms_relative = 0;       ///< over the data that are used, and known to 50 %
+    double rms_relative = 0;       ///< over the data that are used, known to 50 %, and of some flux
     double misplaced = 0;          ///< sum of |model - data| times area, over sum of data times area
 };
 /// Variance of a weighted residual: with standard errors 1, or chi2 per degree of freedom where that is larger (the

@@ -208,7 +208,7 @@ ConventionKey anisotropy(const char* name) { return number(name, 0, -.99, .99, "
 Convention cycles() {
     return {.id = "cycles",
             .aliases = {"blender"},
-            .title = "Blender 5 Cycles, Principled BSDF, Random Walk",
+            .title = "Blender 5.2 Cycles, Principled BSDF, Random Walk",
             .source = "blender/cycles 695bae3, kernel/closure/bssrdf.h and kernel/integrator/subsurface_random_walk.h",
             .relation = std::string(van_de_hulst) + "; sigma_t = 4 pi / (radius scale)",
             .keys = cyclesKeys("4 pi mean free paths 1/sigma_t, over subsurface_scale", -.99, .99),
@@ -219,8 +219,11 @@ Convention cycles() {
 Convention cyclesLegacy() {
     return {.id = "cycles_legacy",
             .aliases = {"blender4"},
-            .title = "Blender 3 and 4 Cycles, Principled BSDF, Random Walk (in 3: Fixed Radius)",
-            .source = "blender, intern/cycles, kernel/integrator/subsurface_random_walk.h of 3.0 to 4.5",
+            .title = "Cycles, Random Walk (Legacy) of Blender 5.2: Random Walk of 4, Fixed Radius of 3",
+            .source =
+                "blender/cycles 695bae3, kernel/closure/bssrdf.h and kernel/integrator/subsurface_random_walk.h; the "
+                "same in 3.0 to "
+                "4.5",
             .relation = std::string(wrenninge) + "; sigma_t (1 - g) = 4 pi / (radius scale)",
             .keys = cyclesKeys("4 pi / (sigma_t (1 - g)), over subsurface_scale", 0, .9),
             .read = [](const ConventionValues& values,
