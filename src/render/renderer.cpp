@@ -161,8 +161,12 @@ struct Renderer::Impl {
         refresh(Stage::visible, key, [&] {
             report.camera = framedCamera(scene.camera, object, width, height);
             view = makeView(report.camera, object, width, height);
-            raster.find(view, object, {.edge_samples = settings.edge_samples, .threads = settings.threads}, observer,
-                        visible);
+            const TraceOptions options{.edge_samples = settings.edge_samples, .threads = settings.threads};
+            // Drawing takes as long as there are triangles, rays as long as there are pixels.
+            if (object.mesh.triangles.size() <= static_cast<std::size_t>(width) * static_cast<std::size_t>(height))
+                raster.find(view, object, options, observer, visible);
+            else
+                visible = traceVisible(view, object, *rays, options, observer);
         });
     }
 
