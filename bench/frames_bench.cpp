@@ -3,8 +3,9 @@
 //   frames_bench [--frames N] [--meshes FOLDER] [--changes camera|light|material]
 //   frames_bench --visible FILE       the visible surface alone, drawn and by rays, one thread, CPU time
 //
-// Wall time, median of the frames after the first of each kind, by stage. With the folder of meshes also the objects of
-// the table in [Bitterli2013], with as many points; the light is kept while the camera moves, as there.
+// Median of the frames after the first of each kind: wall time, CPU time of all threads, wall time by stage. With the
+// folder of meshes also the objects of the table in [Bitterli2013], with as many points; the light is kept while the
+// camera moves, as there.
 #include <fmt/format.h>
 #include <sys/resource.h>
 
@@ -167,7 +168,6 @@ int main(int argc, char** argv) {
     }
     head();
     for (const char* material : {"skin1", "marble"}) {
-        if (!folder.empty()) break;
         Scene scene;
         scene.material.id = material;
         run(fmt::format("sphere {}", material), scene, 0, count, only);
