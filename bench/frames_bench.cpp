@@ -1,9 +1,11 @@
 // What a frame costs while something moves: the camera, the light, the material. 1280 x 720, hierarchical, CPU.
 //
 //   frames_bench [--frames N] [--meshes FOLDER] [--changes camera|light|material]
+//   frames_bench --visible FILE       the visible surface alone, drawn and by rays, one thread, CPU time
 //
-// Wall time, median of the frames after the first of each kind, by stage. With the folder of meshes also the objects of
-// the table in [Bitterli2013], with as many points; the light is kept while the camera moves, as there.
+// Median of the frames after the first of each kind: wall time, CPU time of all threads, wall time by stage. With the
+// folder of meshes also the objects of the table in [Bitterli2013], with as many points; the light is kept while the
+// camera moves, as there.
 #include <fmt/format.h>
 #include <sys/resource.h>
 
@@ -16,6 +18,7 @@
 
 #include "model/plane.h"
 #include "render/renderer.h"
+#include "render/visible_raster.h"
 #include "scene/materials.h"
 
 namespace searchlight {
@@ -129,6 +132,31 @@ void run(const std::string& name, const Scene& scene, std::size_t points, int co
         line(name, "material", frames, frames.median(count, [](Scene& s) { s.material.scale *= 1.01; }));
 }
 
+void compareVisible(const std::string& file, int count) {
+    Scene scene;
+    scene.object = file;
+    const Object object = placeObject(scene);
+    const RayScene rays(object.mesh);
+    VisibleRaster raster;
+    VisibleSurface visible;
+    Observer observer;
+    std::vector<double> drawn, traced;
+    for (int i = 0; i < count; ++i) {
+        scene.camera.azimuth_deg += 7;
+        const View view = makeView(scene.camera, object, 1280, 720);
+        const double begin = userMs();
+        raster.find(view, object, {.threads = 1}, observer, visible);
+        const double between = userMs();
+        traceVisible(view, object, rays, {.threads = 1}, observer);
+        drawn.push_back(between - begin);
+        traced.push_back(userMs() - between);
+    }
+    std::ranges::sort(drawn);
+    std::ranges::sort(traced);
+    fmt::print("{}: {} triangles, {} samples; drawn {:.1f} ms, by rays {:.1f} ms\n", file, object.mesh.triangles.size(),
+               visible.pixels.size(), drawn[drawn.size() / 2], traced[traced.size() / 2]);
+}
+
 int main(int argc, char** argv) {
     int count = 9;
     std::string folder, only;
@@ -136,10 +164,10 @@ int main(int argc, char** argv) {
         if (!std::strcmp(argv[i], "--frames")) count = std::atoi(argv[i + 1]);
         if (!std::strcmp(argv[i], "--meshes")) folder = argv[i + 1];
         if (!std::strcmp(argv[i], "--changes")) only = argv[i + 1];
+        if (!std::strcmp(argv[i], "--visible")) return compareVisible(argv[i + 1], count), 0;
     }
     head();
     for (const char* material : {"skin1", "marble"}) {
-        if (!folder.empty()) break;
         Scene scene;
         scene.material.id = material;
         run(fmt::format("sphere {}", material), scene, 0, count, only);

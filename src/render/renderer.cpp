@@ -183,10 +183,14 @@ struct Renderer::Impl {
             report.camera = framedCamera(scene.camera, object, width, height);
             view = makeView(report.camera, object, width, height);
             const TraceOptions options{.edge_samples = settings.edge_samples, .threads = settings.threads};
+            // Drawing takes as long as there are triangles, rays as long as there are pixels.
+            const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
             if (settings.gl)
                 visible = onGl().visible(view, object, runs(Stage::object), options, observer);
-            else
+            else if (object.mesh.triangles.size() <= pixels)
                 raster.find(view, object, options, observer, visible);
+            else
+                visible = traceVisible(view, object, *rays, options, observer);
         };
         refresh(Stage::visible, key, compute, settings.gl);
     }
