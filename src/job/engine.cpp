@@ -47,6 +47,11 @@ LoadedModel Engine::load(std::string_view name, const std::vector<std::string>& 
 }
 
 ParamValues parseSettings(const Model& model, const std::vector<std::string>& settings) {
+    return parseSettings(model.file.parameters, model.id, settings);
+}
+
+ParamValues parseSettings(const std::vector<Param>& parameters, std::string_view what,
+                          const std::vector<std::string>& settings) {
     ParamValues values;
     // "Tint=1,0.5,0.2" was cut at its commas with the rest of the list.
     std::vector<std::string> whole;
@@ -61,7 +66,7 @@ ParamValues parseSettings(const Model& model, const std::vector<std::string>& se
         if (equals == std::string::npos)
             throw usageError(fmt::format("'{}' is no setting", setting), "expected name=value");
         const std::string name(trim(std::string_view(setting).substr(0, equals)));
-        const Param& param = findParam(model.file.parameters, name, fmt::format("parameter of {}", model.id));
+        const Param& param = findParam(parameters, name, fmt::format("parameter of {}", what));
         values[name] = parseValue(param, std::string_view(setting).substr(equals + 1));
     }
     return values;
