@@ -1,4 +1,4 @@
-// Small valid files of every format that shape_fuzz and image_fuzz read, as corpora to start
+// Small valid files of every format that shape_fuzz, image_fuzz and brdf_fuzz read, as corpora to start
 // from: fuzz_seeds FOLDER writes FOLDER/shape.ply/*, FOLDER/image.exr/*, ...
 #include <cstdio>
 #include <filesystem>
@@ -117,6 +117,10 @@ int main(int argc, char** argv) {
     try {
         images(argv[1]);
         shapes(argv[1]);
+        seed(fs::path(argv[1]) / "brdf", "small",
+             "analytic\n::begin parameters\nfloat gloss 0 1 .5\nbool on 1\ncolor tint 1 .5 0\n::end parameters\n"
+             "::begin shader\nvec3 BRDF(vec3 L, vec3 V, vec3 N, vec3 X, vec3 Y) { return tint * gloss; }\n::end "
+             "shader\n");
     } catch (const Error& error) {
         std::fprintf(stderr, "%s\n", error.what());
         return 1;
