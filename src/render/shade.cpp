@@ -16,7 +16,7 @@ namespace {
 // Interpolated normals turn away from the eye where triangles do not: on creases and where a mesh folds back on itself
 // its vertices' normals are means of sides that have nothing to do with each other, and T21 of them draws black lines
 // and specks. So the cosine is at least so much of the triangle's: half of it where the normals agree within 25
-// degrees, as they do on smooth surfaces up to their outlines, all of it from 45 degrees on.
+// degrees, as they do on smooth surfaces up to their outlines, all of it from 45 degrees on and up to 0.1.
 double trust(double agreement) { return std::clamp(1 - 2.5 * (agreement - 0.7), 0.5, 1.0); }
 
 }  // namespace
@@ -31,7 +31,8 @@ std::vector<Rgbf> exitRadiance(const VisibleSurface& visible, std::span<const Rg
         for (std::size_t i = part * chunk; i < std::min(exitance.size(), (part + 1) * chunk); ++i) {
             const Vec3 wo = normalize(visible.eye - toDouble(visible.positions[i]));
             const Vec3 normal = toDouble(visible.normals[i]), geometric = toDouble(visible.geometric_normals[i]);
-            const double least = trust(dot(normal, geometric)) * dot(wo, geometric);
+            const double seen = dot(wo, geometric);
+            const double least = std::max(trust(dot(normal, geometric)) * seen, std::min(seen, 0.1));
             const double cosine = std::clamp(dot(wo, normal), std::clamp(least, 0.0, 1.0), 1.0);
             const double transmitted = 1 - Fresnel::fresnelReflectance(cosine, 1 / eta);
             radiance[i] = toFloat((transmitted / normalizer) * toDouble(exitance[i]));
