@@ -50,4 +50,8 @@ private:
 /// "Moments=exact" pairs as values of the model's parameters, in a sum also "part.Moments=exact". Throws a usage Error with the nearest names.
 ParamValues parseSettings(const Model& model, const std::vector<std::string>& settings);
 
+/// The same for parameters of anything; `what` calls it in messages: "paint.brdf".
+ParamValues parseSettings(const std::vector<Param>& parameters, std::string_view what,
+                          const std::vector<std::string>& settings);
+
 }  // namespace searchlight

@@ -103,20 +103,27 @@ void ModelSumGl::setPoints(const PointCloud& points, int threads) {
     points_ = points;
     area_mm2_ = std::accumulate(points.areas.begin(), points.areas.end(), 0.0);
     tree_ = buildHeapTree(points_.positions, points_per_leaf, threads);
-    spheres_.upload(context_, tree_.spheres);
     fill<int>(leaf_begins_, begins(tree_));
     beams_.clear();
 }
 
 void ModelSumGl::setLight(const Irradiance& irradiance, bool reads_wi, int threads) {
     beams_.clear();
-    if (!reads_wi) return addBeam(modelPoints(points_, points_.normals, irradiance.transmitted), threads);
-    for (const searchlight::Beam& beam : irradiance.beams) addBeam(modelPoints(points_, beam.wi, beam.flux), threads);
+    sphere_texels_ = tree_.spheres;
+    if (!reads_wi)
+        addBeam(modelPoints(points_, points_.normals, irradiance.transmitted), threads);
+    else
+        for (const searchlight::Beam& beam : irradiance.beams)
+            addBeam(modelPoints(points_, beam.wi, beam.flux), threads);
+    spheres_.upload(context_, sphere_texels_);
 }
 
 void ModelSumGl::addBeam(std::span<const ModelPoint> points, int threads) {
     auto beam = std::make_unique<Beam>(context_);
-    beam->nodes.upload(context_, modelNodesGl(tree_, points, threads));
+    const std::vector<ModelNode> nodes = modelNodes(tree_, points, threads);
+    beam->nodes.upload(context_, modelNodesGl(nodes, threads));
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+        if (isFolded(nodes[i])) sphere_texels_[i][3] = -1;
     std::vector<Texel> texels;
     texels.reserve(4 * points.size());
     for (const std::uint32_t i : tree_.order) {

@@ -67,6 +67,7 @@ private:
 
     gl::Program lists_pass_;
     TableGl radial_, spheres_;
+    std::vector<std::array<float, 4>> sphere_texels_;  // of the points' tree; a radius below 0: folded in some beam
     gl::Buffer leaf_begins_, counters_, lists_, values_, direct_values_, chosen_;
 
     LoopBudget budget_;

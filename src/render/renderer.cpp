@@ -42,6 +42,15 @@ std::string keyOf(const Scene& scene, Members... members) {
     return sceneJson(part);
 }
 
+constexpr std::size_t most_default_points = 800'000;
+
+// A transport mean free path of the densest channel apart.
+double wantedPointCount(double area_mm2, const Medium& medium) {
+    double densest = 0;
+    for (int c = 0; c < Rgb::channels; ++c) densest = std::max(densest, medium.sigmaTp()[c]);
+    return area_mm2 * densest * densest;
+}
+
 }  // namespace
 
 std::string_view stageName(Stage stage) {
@@ -51,11 +60,18 @@ std::string_view stageName(Stage stage) {
 }
 
 std::size_t defaultPointCount(double area_mm2, const Medium& medium) {
-    double mean_free_path = std::numeric_limits<double>::infinity();
-    for (int c = 0; c < Rgb::channels; ++c) mean_free_path = std::min(mean_free_path, 1 / medium.sigmaTp()[c]);
     std::size_t count = 100'000;
-    while (count < 800'000 && static_cast<double>(count) < area_mm2 / (mean_free_path * mean_free_path)) count *= 2;
+    while (count < most_default_points && static_cast<double>(count) < wantedPointCount(area_mm2, medium)) count *= 2;
     return count;
+}
+
+std::optional<std::string> noteOfFewPoints(double area_mm2, const Medium& medium) {
+    const double wanted = wantedPointCount(area_mm2, medium);
+    if (wanted <= most_default_points) return std::nullopt;
+    return fmt::format(
+        "There are {} points, the most that are chosen without asking: as close together as light travels there would "
+        "be {:.2g} million.",
+        most_default_points, 1e-6 * wanted);
 }
 
 struct Renderer::Impl {
@@ -312,6 +328,8 @@ struct Renderer::Impl {
             report.notes.emplace_back("At every angle the model stands with its profile under a normal beam.");
         if (std::string twice = countedTwice(material.model); !twice.empty()) report.notes.push_back(std::move(twice));
         const Medium& medium = material.medium;
+        if (object.isMesh() && settings.points == 0)
+            if (const auto note = noteOfFewPoints(area_mm2, medium)) report.notes.push_back(*note);
         for (int c = 0; c < medium.channels; ++c) {
             if (!medium.scatters(c))
                 report.notes.push_back(fmt::format("Channel {} does not scatter: it is black.", "RGB"[c]));

@@ -91,7 +91,11 @@ private:
 };
 
 /// Points of irradiance for a surface of that area, so that they stand closer than the medium blurs, a transport mean
-/// free path of its densest channel: 100,000, 200,000, 400,000 or 800,000, so that a slider seldom changes it.
+/// free path of its densest channel: 100,000, 200,000, 400,000 or 800,000, so that a slider seldom changes it; the last
+/// also where it is too few.
 std::size_t defaultPointCount(double area_mm2, const Medium& medium);
+
+/// What a user should know where it is too few.
+std::optional<std::string> noteOfFewPoints(double area_mm2, const Medium& medium);
 
 }  // namespace searchlight

@@ -58,6 +58,16 @@ HWY_INLINE FloatV transmittance(FloatV cosine, float ratio) {
     return hn::Add(part(s), part(p));
 }
 
+// Interpolated normals turn away from the eye where triangles do not: on creases and where a mesh folds back on itself
+// its vertices' normals are means of sides that have nothing to do with each other, and T21 of them draws black lines
+// and specks. So the cosine is at least so much of the triangle's: half of it where the normals agree within 25
+// degrees, as they do on smooth surfaces up to their outlines, all of it from 45 degrees on and up to 0.1.
+HWY_INLINE FloatV trust(FloatV agreement) {
+    const Float d;
+    const FloatV part = hn::NegMulAdd(hn::Set(d, 2.5f), hn::Sub(agreement, hn::Set(d, 0.7f)), hn::Set(d, 1.0f));
+    return hn::Min(hn::Max(part, hn::Set(d, 0.5f)), hn::Set(d, 1.0f));
+}
+
 HWY_INLINE FloatV factors(const Vec3f* positions, const Vec3f* normals, const Vec3f* geometric, Vec3f eye, float ratio,
                           float scale) {
     const Float d;
@@ -65,11 +75,11 @@ HWY_INLINE FloatV factors(const Vec3f* positions, const Vec3f* normals, const Ve
     const Vectors to_eye{hn::Sub(hn::Set(d, eye.x), position.x), hn::Sub(hn::Set(d, eye.y), position.y),
                          hn::Sub(hn::Set(d, eye.z), position.z)};
     const FloatV per_length = hn::Div(hn::Set(d, 1.0f), hn::Sqrt(dotOf(to_eye, to_eye)));
-    // A normal that was interpolated can turn away from the eye where the triangle does not: that would draw black
-    // lines along creases.
-    const FloatV seen = hn::Min(hn::Mul(dotOf(to_eye, load(geometric)), per_length), hn::Set(d, 0.1f));
-    const FloatV cosine = hn::Min(
-        hn::Max(hn::Mul(dotOf(to_eye, load(normals)), per_length), hn::Max(seen, hn::Zero(d))), hn::Set(d, 1.0f));
+    const Vectors normal = load(normals), triangle = load(geometric);
+    const FloatV seen = hn::Mul(dotOf(to_eye, triangle), per_length);
+    const FloatV least = hn::Max(hn::Mul(trust(dotOf(normal, triangle)), seen), hn::Min(seen, hn::Set(d, 0.1f)));
+    const FloatV cosine =
+        hn::Min(hn::Max(hn::Mul(dotOf(to_eye, normal), per_length), hn::Max(least, hn::Zero(d))), hn::Set(d, 1.0f));
     return hn::Mul(hn::Set(d, scale), transmittance(cosine, ratio));
 }
 

@@ -70,6 +70,32 @@ TEST(Shade, TransmittanceIsFresnelsUpToGrazingAngles) {
     }
 }
 
+// A vertex in a fold has a normal that points away from all that is seen of its triangles.
+TEST(Shade, NormalsThatTheirTrianglesBelieNeitherDarkenNorBrighten) {
+    const auto turned = [](double degrees) {
+        const double angle = degrees * std::numbers::pi / 180;
+        return toFloat(Vec3{std::sin(angle), 0, std::cos(angle)});
+    };
+    // Triangles at 50 degrees to the eye; normals turned further away from it, and towards it.
+    VisibleSurface visible = seenUnder(std::vector<double>(6, 1.0));
+    const double normals[] = {50, 130, 96, 70, 75, 10};
+    for (std::size_t i = 0; i < 6; ++i) {
+        visible.geometric_normals[i] = turned(50);
+        visible.normals[i] = turned(normals[i]);
+    }
+    std::vector<Rgbf> radiance, expected;
+    exitRadiance(visible, std::vector<Rgbf>(6, Rgbf{1, 1, 1}), 1.5, 1, radiance);
+    const VisibleSurface smooth =
+        seenUnder({std::cos(70 * std::numbers::pi / 180), std::cos(75 * std::numbers::pi / 180)});
+    exitRadiance(smooth, std::vector<Rgbf>(2, Rgbf{1, 1, 1}), 1.5, 1, expected);
+    EXPECT_FLOAT_EQ(radiance[1].r, radiance[0].r) << "80 degrees apart: the triangle's";
+    EXPECT_FLOAT_EQ(radiance[2].r, radiance[0].r) << "46 degrees apart: the triangle's";
+    // Within 25 degrees the normal has its way as long as its cosine is more than half of the triangle's.
+    EXPECT_NEAR(radiance[3].r, expected[0].r, 1e-6);
+    EXPECT_GT(radiance[4].r, expected[1].r);
+    EXPECT_GT(radiance[5].r, radiance[0].r) << "a normal towards the eye is believed";
+}
+
 TEST(Shade, CoverageIsAlphaOverTheBackground) {
     VisibleSurface visible = seenUnder({1, 1, 1});
     visible.coverage = {1, 0.25f, 0.25f};
