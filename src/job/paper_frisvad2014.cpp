@@ -185,7 +185,7 @@ PaperPlate figure4(const PaperRun& run) {
     }
     plate.statements.push_back(
         {"the directional dipole gives curves similar to those of the other models, with a slight overestimation.",
-         "its total reflectance, against the reference: " + excesses, over});
+         "it lies above the reference in total, by more than slightly: " + excesses, over});
     plate.statements.push_back(
         {"the deviation in the tail for highly absorbing media (1 / cm) is very small in its scale.",
          "beyond half the extent the largest deviation is, relative to the peak of the reference: " + tails,
@@ -352,8 +352,8 @@ PaperPlate figure12(const PaperRun& run) {
                          shift),
              peakRatio(title) > 2 * peakRatio("Classical dipole") && std::abs(shift) < 1e-9});
     }
-    plate.figure = obliqueFigure(
-        {&panel, 1}, {.title = "Frisvad et al. 2014, figure 12: 45°, no single scattering added, σa = 0.01 / cm"});
+    plate.figure =
+        obliqueFigure({&panel, 1}, {.title = "Frisvad et al. 2014, figure 12: 45°, single scattering left out"});
     return plate;
 }
 

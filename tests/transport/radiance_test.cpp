@@ -118,7 +118,7 @@ TEST(Radiance, OfTheWholePlaneFollowsChandrasekharsLaw) {
 // Integrated over the plane it is a BRDF, which is reciprocal. The beam stands at the cosine-weighted middle of the
 // cell that it is exchanged with; what remains of the curvature within 10 degrees is below 1 %.
 TEST(Radiance, IsReciprocalUnderARefractingBoundary) {
-    const RadianceOptions options{.walks = 600'000, .r1_mm = 200, .half_width_deg = 180, .polar = 9, .turns = 1};
+    const RadianceOptions options{.walks = 1'500'000, .r1_mm = 200, .half_width_deg = 180, .polar = 9, .turns = 1};
     for (const double eta : {1.0, 1.5}) {
         HalfSpaceProblem problem = ofAlbedo(0.9, eta);
         problem.angle_deg = 6.7;
