@@ -81,7 +81,7 @@ Figure sliceFigure(std::span<const SlicePanel> panels, const SliceOptions& optio
     figure.title = options.title;
     figure.columns = options.columns;
     bool outlined = false, has_reference = false;
-    double reference_top = 0, model_top = 0;
+    double reference_top = 0, model_top = 0, model_low = INFINITY;
     for (const SlicePanel& panel : panels) {
         const bool is_reference = !panel.standard_error.empty();
         has_reference = has_reference || is_reference;
@@ -93,7 +93,10 @@ Figure sliceFigure(std::span<const SlicePanel> panels, const SliceOptions& optio
         for (const Rgb& mean : panel.means) {
             map.values.push_back(pick(mean, options.channel));
             double& top = is_reference ? reference_top : model_top;
-            if (std::isfinite(map.values.back())) top = std::max(top, map.values.back());
+            const double value = map.values.back();
+            if (!std::isfinite(value)) continue;
+            top = std::max(top, value);
+            if (!is_reference && value > 0) model_low = std::min(model_low, value);
         }
         for (const Rgb& error : panel.standard_error) map.standard_error.push_back(pickError(error, options.channel));
         if (!panel.unclamped.empty()) {
@@ -114,8 +117,10 @@ Figure sliceFigure(std::span<const SlicePanel> panels, const SliceOptions& optio
     }
     const double top = reference_top > 0 ? reference_top : model_top;
     if (!(top > 0)) throw inputError("nothing leaves the surface: there is nothing to plot");
-    figure.color = {"Diffuse reflectance", "1/mm²", AxisScale::logarithmic, top * std::pow(10.0, -options.decades),
-                    top};
+    // Models are free of noise: below the lowest of their values there is nothing to see.
+    const double lowest = top * std::pow(10.0, -options.decades);
+    const double bottom = model_low < 0.5 * top ? std::max(lowest, model_low) : lowest;
+    figure.color = {"Diffuse reflectance", "1/mm²", AxisScale::logarithmic, bottom, top};
     figure.caption =
         "Per unit incident flux, means over the cells. The beam enters in the middle and leans to the right.";
     figure.caption += " Values outside the scale have the colour of its end.";

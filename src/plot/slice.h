@@ -23,7 +23,7 @@ struct SliceOptions {
     std::string title;
     double extent_mm = 1;
     int columns = 2;
-    double decades = 4;  ///< of the colour scale, below its upper end
+    double decades = 4;  ///< of the colour scale below its upper end, at most: it ends where the models do
 };
 
 /// The colour scale is logarithmic, its upper end the largest value of the reference where there is one (of the models

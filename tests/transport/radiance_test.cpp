@@ -115,6 +115,22 @@ TEST(Radiance, OfTheWholePlaneFollowsChandrasekharsLaw) {
     judge.expectAgreement();
 }
 
+// Integrated over the plane it is a BRDF, which is reciprocal. The beam stands at the cosine-weighted middle of the
+// cell that it is exchanged with; what remains of the curvature within 10 degrees is below 1 %.
+TEST(Radiance, IsReciprocalUnderARefractingBoundary) {
+    const RadianceOptions options{.walks = 1'500'000, .r1_mm = 200, .half_width_deg = 180, .polar = 9, .turns = 1};
+    for (const double eta : {1.0, 1.5}) {
+        HalfSpaceProblem problem = ofAlbedo(0.9, eta);
+        problem.angle_deg = 6.7;
+        const RadianceResult steep = radiance(problem, options);
+        problem.angle_deg = 54.9;
+        const RadianceResult flat = radiance(problem, options);
+        const double error = std::hypot(steep.standard_error[5], flat.standard_error[0]);
+        EXPECT_NEAR(steep.radiance[5], flat.radiance[0], 4 * error + 0.01 * steep.radiance[5]) << eta;
+        EXPECT_LT(4 * error, 0.06 * steep.radiance[5]) << "or this test sees nothing";
+    }
+}
+
 TEST(Radiance, IsTheSameOnBothSidesOfThePlaneOfIncidence) {
     const HalfSpaceProblem problem{.sigma_a = 0.1, .sigma_s = 1, .g = 0.6, .eta = 1.33, .angle_deg = 60};
     const RadianceResult result =
