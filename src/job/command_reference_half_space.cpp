@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/text.h"
+#include "job/beam_option.h"
 #include "job/command_table.h"
 #include "job/curves.h"
 #include "job/json.h"
@@ -75,6 +76,7 @@ void refuseWhite(const Options& options) {
     if (options.given("estimator"))
         throw usageError("--white and --estimator exclude each other", "give one of the two");
     if (options.number("grid") > 0) throw usageError("--white has no --grid", "its tables are radial");
+    if (options.number("beam_radius") > 0) throw usageError("--white has no --beam", "its tables are of a pencil beam");
 }
 
 // Where the channels came from: null for those that were walked. Channels that share a table share its errors.
@@ -97,6 +99,8 @@ void refuseExact(const Options& options, const Subject& subject) {
         if (options.given(name))
             throw usageError(fmt::format("--exact and --{} exclude each other", name), "give one of the two");
     if (options.number("grid") > 0) throw usageError("--exact has no --grid", "the exact profile is radial");
+    if (options.number("beam_radius") > 0)
+        throw usageError("--exact has no --beam", "the exact profile is that of a pencil beam");
     for (int c = 0; c < subject.medium.channels; ++c) {
         if (!subject.medium.scatters(c)) continue;
         const std::string reason = whyNotExact(halfSpaceProblem(subject.medium, c, options.number("angle_deg")));
@@ -109,16 +113,19 @@ void refuseExact(const Options& options, const Subject& subject) {
 // What the sums depend on, but for the number of walks.
 Json problemJson(const Medium& medium, const ReferenceOptions& reference) {
     const auto rgb = [](const Rgb& value) { return Json{value.r, value.g, value.b}; };
-    return {{"sigma_a", rgb(medium.sigma_a)},
-            {"sigma_s", rgb(medium.sigma_s)},
-            {"g", rgb(medium.g)},
-            {"eta", medium.eta},
-            {"channels", medium.channels},
-            {"angle_deg", reference.angle_deg},
-            {"edges_mm", reference.edges_mm},
-            {"grid", reference.grid},
-            {"grid_extent_mm", reference.grid_extent_mm},
-            {"estimator", reference.estimator == Estimator::best ? "best" : "analogue"}};
+    Json json{{"sigma_a", rgb(medium.sigma_a)},
+              {"sigma_s", rgb(medium.sigma_s)},
+              {"g", rgb(medium.g)},
+              {"eta", medium.eta},
+              {"channels", medium.channels},
+              {"angle_deg", reference.angle_deg},
+              {"edges_mm", reference.edges_mm},
+              {"grid", reference.grid},
+              {"grid_extent_mm", reference.grid_extent_mm},
+              {"estimator", reference.estimator == Estimator::best ? "best" : "analogue"}};
+    // What came later is named only where it is used, so that older sums go on.
+    if (reference.beam.kind != BeamShape::pencil) json["beam"] = {reference.beam.kind, reference.beam.radius};
+    return json;
 }
 
 std::string estimateText(const Estimate& estimate, bool exact) {
@@ -137,9 +144,9 @@ JobResult runReferenceHalfSpace(const Job& job, Engine& engine, Observer& observ
     reference.grid = static_cast<int>(options.number("grid"));
     reference.grid_extent_mm = options.number("grid_extent");
     reference.threads = static_cast<int>(options.number("threads"));
-    if (options.text("estimator") == "best") reference.estimator = Estimator::best;
-    if (reference.grid > 0 && reference.grid_extent_mm <= 0)
-        throw usageError("--grid needs --grid-extent", "half the side of the square, in mm");
+    if (options.text("estimator") == "analogue") reference.estimator = Estimator::analogue;
+    option::requireGridExtent(options);
+    reference.beam = beamOf(options);
     reference.white = options.toggle("white");
     if (reference.white) refuseWhite(options);
     reference.exact = options.toggle("exact");
@@ -175,6 +182,7 @@ JobResult runReferenceHalfSpace(const Job& job, Engine& engine, Observer& observ
     document["geometry"] = "halfspace";
     document["material"] = subjectJson(subject);
     document["angle_deg"] = run.angle_deg;
+    document["beam"] = {{"shape", nameOf(reference.beam.kind)}, {"radius_mm", reference.beam.radius}};
     document["unit"] = "1/mm^2";
     document["specular"] = specular;
     const Json all = tallyJson(run, &HalfSpaceResult::all, reference.grid, reference.grid_extent_mm);
@@ -230,56 +238,48 @@ JobResult runReferenceHalfSpace(const Job& job, Engine& engine, Observer& observ
 }  // namespace
 
 Command referenceHalfSpaceCommand() {
-    return {
-        .name = "reference halfspace",
-        .summary = "Walk the searchlight problem by unbiased Monte Carlo",
-        .example = "searchlight reference halfspace --material skin1 --walks 1e6 --radii-max 10 --bins 100 --json",
-        .options = {option::walks(1e6),
-                    {.name = "edges",
-                     .type = ParamType::numbers,
-                     .unit = "mm",
-                     .min = 0,
-                     .max = option::unlimited,
-                     .value = std::vector<double>{},
-                     .doc = "edges of the radial bins"},
-                    option::radiiMax(),
-                    option::bins(100),
-                    option::angle(),
-                    {.name = "grid",
-                     .type = ParamType::integer,
-                     .min = 0,
-                     .max = 4096,
-                     .value = 0.0,
-                     .doc = "cells per side of a tally R(x, y); 0: none"},
-                    {.name = "grid_extent",
-                     .unit = "mm",
-                     .min = 0,
-                     .max = option::unlimited,
-                     .value = 0.0,
-                     .doc = "half the side of that square"},
-                    {.name = "estimator",
-                     .type = ParamType::choice,
-                     .value = std::string("analogue"),
-                     .choices = {"analogue", "best"},
-                     .doc = "best: profiles and totals with far less noise, except for --grid"},
-                    {.name = "white",
-                     .type = ParamType::toggle,
-                     .value = false,
-                     .doc = "from a table of walks without absorption, kept on disk: a new sigma_a or sigma_s, up to "
-                            "albedo 0.9999, walks nothing"},
-                    {.name = "exact",
-                     .type = ParamType::toggle,
-                     .value = false,
-                     .doc =
-                         "solve without walks: eta 1, g 0, normal incidence; stderr then bounds the numerical error"},
-                    option::threads(),
-                    option::untilError("total and profile"),
-                    option::resume()},
-        .uses_material = true,
-        .uses_seed = true,
-        .shares_walks = true,
-        .output = "the JSON document",
-        .run = runReferenceHalfSpace};
+    return {.name = "reference halfspace",
+            .summary = "Walk the searchlight problem by unbiased Monte Carlo",
+            .example = "searchlight reference halfspace --material skin1 --walks 1e6 --radii-max 10 --bins 100 --json",
+            .options =
+                {option::walks(1e6),
+                 {.name = "edges",
+                  .type = ParamType::numbers,
+                  .unit = "mm",
+                  .min = 0,
+                  .max = option::unlimited,
+                  .value = std::vector<double>{},
+                  .doc = "edges of the radial bins"},
+                 option::radiiMax(),
+                 option::bins(100),
+                 option::angle(),
+                 option::beam(),
+                 option::beamRadius(),
+                 option::grid("R(x, y)"),
+                 option::gridExtent(),
+                 {.name = "estimator",
+                  .type = ParamType::choice,
+                  .value = std::string("best"),
+                  .choices = {"analogue", "best"},
+                  .doc = "analogue: nothing carries a weight; best: far less noise in the same time, analogue only for "
+                         "--grid and --beam"},
+                 {.name = "white",
+                  .type = ParamType::toggle,
+                  .value = false,
+                  .doc = "from a table of walks without absorption, kept on disk: a new sigma_a or sigma_s, up to "
+                         "albedo 0.9999, walks nothing"},
+                 {.name = "exact",
+                  .type = ParamType::toggle,
+                  .value = false,
+                  .doc = "solve without walks: eta 1, g 0, normal incidence; stderr then bounds the numerical error"},
+                 option::threads(),
+                 option::untilError("total and profile"),
+                 option::resume()},
+            .uses_material = true,
+            .uses_seed = true,
+            .shares_walks = true,
+            .output = "the JSON document",
+            .run = runReferenceHalfSpace};
 }
 
 }  // namespace searchlight

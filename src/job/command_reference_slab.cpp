@@ -1,10 +1,11 @@
-// reference slab: a pencil beam on plane layers by Monte Carlo.
+// reference slab: a beam on plane layers by Monte Carlo.
 #include <fmt/format.h>
 
 #include <cmath>
 
 #include "base/error.h"
 #include "base/files.h"
+#include "job/beam_option.h"
 #include "job/command_table.h"
 #include "job/saved_walks.h"
 #include "job/shared_options.h"
@@ -32,7 +33,7 @@ McmlRun runOf(const std::string& path, int number) {
 // 10 transport mean free paths of the first layer that does anything.
 double naturalRange(const SlabProblem& problem) {
     for (const SlabLayer& layer : problem.layers)
-        if (!layer.clear()) return 10 / (layer.sigma_a + (1 - layer.g) * layer.sigma_s);
+        if (!layer.clear()) return 10 / (layer.sigma_a + (1 - layer.meanCosine()) * layer.sigma_s);
     return 10;
 }
 
@@ -60,6 +61,7 @@ SlabSubject slabOf(const Options& options) {
         subject.problem = parseLayers(readFile(subject.name), subject.name);
     }
     subject.problem.angle_deg = options.number("angle_deg");
+    subject.problem.beam = beamOf(options);
     return subject;
 }
 
@@ -68,12 +70,17 @@ Json problemJson(const SlabProblem& problem, const SlabOptions& options) {
     Json json{{"n_above", problem.n_above},   {"n_below", problem.n_below}, {"angle_deg", problem.angle_deg},
               {"edges_mm", options.edges_mm}, {"angles", options.angles},   {"depths", options.depths},
               {"depth_mm", options.depth_mm}, {"maps", options.maps},       {"layers", Json::array()}};
-    for (const SlabLayer& layer : problem.layers)
-        json["layers"].push_back({{"n", layer.n},
-                                  {"sigma_a", layer.sigma_a},
-                                  {"sigma_s", layer.sigma_s},
-                                  {"g", layer.g},
-                                  {"thickness_mm", layer.thickness_mm}});
+    // What came later is named only where it is used, so that older sums go on.
+    if (options.grid > 0) json["grid"] = {options.grid, options.grid_extent_mm};
+    if (problem.beam.kind != BeamShape::pencil) json["beam"] = {problem.beam.kind, problem.beam.radius};
+    for (const SlabLayer& layer : problem.layers) {
+        Json& one = json["layers"].emplace_back(Json{{"n", layer.n},
+                                                     {"sigma_a", layer.sigma_a},
+                                                     {"sigma_s", layer.sigma_s},
+                                                     {"g", layer.g},
+                                                     {"thickness_mm", layer.thickness_mm}});
+        if (layer.phase) one["phase"] = {layer.phase->angles_deg, layer.phase->values};
+    }
     return json;
 }
 
@@ -98,6 +105,9 @@ JobResult runReferenceSlab(const Job& job, Engine&, Observer& observer) {
     if (wants("depth"))
         walk.depth_mm = options.number("depth") > 0 ? options.number("depth") : naturalDepth(subject.problem);
     walk.maps = options.toggle("maps");
+    walk.grid = static_cast<int>(options.number("grid"));
+    walk.grid_extent_mm = options.number("grid_extent");
+    option::requireGridExtent(options);
     walk.seed = job.seed;
     walk.threads = static_cast<int>(options.number("threads"));
     SavedWalks saved(options, job, problemJson(subject.problem, walk), 1);
@@ -144,6 +154,8 @@ Command referenceSlabCommand() {
                          .doc = "which run of that file"},
                         option::walks(1e6, "walks", "random walks"),
                         option::angle(),
+                        option::beam(),
+                        option::beamRadius(),
                         {.name = "edges",
                          .type = ParamType::numbers,
                          .unit = "mm",
@@ -175,6 +187,8 @@ Command referenceSlabCommand() {
                          .type = ParamType::toggle,
                          .value = false,
                          .doc = "also A(r, z), fluence(r, z), R(r, alpha), T(r, alpha)"},
+                        option::grid("R(x, y) and T(x, y)"),
+                        option::gridExtent(),
                         option::threads(),
                         option::untilError("R, T and A"),
                         option::resume()},

@@ -290,7 +290,7 @@ Command reportCommand() {
     return {.name = "report",
             .summary = "Write a page: every model beside the reference, on a material",
             .example = "searchlight report --material marble -o out/",
-            .options = {option::models(), option::walks(4e6),
+            .options = {option::models(), option::walks(1e6),
                         option::walks(2e5, "albedo_walks", "random walks per point of the albedo figure; 0: none", 0),
                         option::angle(), option::radiiMax(), option::bins(64), option::backend(), option::threads()},
             .uses_material = true,

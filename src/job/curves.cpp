@@ -75,7 +75,8 @@ ReferenceRun runReference(const Medium& medium, const ReferenceOptions& options,
     run.edges_mm = options.edges_mm.empty() ? plotEdges(medium, 0, 100) : options.edges_mm;
     for (int c = 0; c < medium.channels; ++c) {
         if (!medium.scatters(c) || (medium.channels > 1 && !options.only[c])) continue;
-        const HalfSpaceProblem problem = halfSpaceProblem(medium, c, options.angle_deg);
+        HalfSpaceProblem problem = halfSpaceProblem(medium, c, options.angle_deg);
+        problem.beam = options.beam;
         if (options.white) {
             run.white[static_cast<std::size_t>(c)] = whiteTableOf(problem, options, run, observer);
             run.channels[static_cast<std::size_t>(c)] = evaluateWhite(*run.white[static_cast<std::size_t>(c)]->table,

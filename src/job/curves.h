@@ -39,7 +39,8 @@ struct ReferenceOptions {
     int grid = 0;
     double grid_extent_mm = 0;
     int threads = 0;
-    Estimator estimator = Estimator::analogue;
+    Estimator estimator = Estimator::best;
+    BeamShape beam;      ///< a wide one is walked by the analogue
     bool white = false;  ///< from tables of walks without absorption, in the user's cache; no grid, no estimator
     bool exact = false;  ///< solved without walks, where whyNotExact() is empty
     bool only[Rgb::channels] = {true, true, true};    ///< channels to walk

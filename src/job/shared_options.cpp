@@ -1,5 +1,7 @@
 #include "job/shared_options.h"
 
+#include "base/error.h"
+
 namespace searchlight::option {
 
 Param model() {
@@ -64,6 +66,26 @@ Param radiiMax() {
 }
 Param bins(double value) {
     return {.name = "bins", .type = ParamType::integer, .min = 1, .max = 1e6, .value = value, .doc = "radial bins"};
+}
+Param grid(std::string_view of_what) {
+    return {.name = "grid",
+            .type = ParamType::integer,
+            .min = 0,
+            .max = 4096,
+            .value = 0.0,
+            .doc = "cells per side of a tally " + std::string(of_what) + "; 0: none"};
+}
+Param gridExtent() {
+    return {.name = "grid_extent",
+            .unit = "mm",
+            .min = 0,
+            .max = unlimited,
+            .value = 0.0,
+            .doc = "half the side of that square"};
+}
+void requireGridExtent(const Options& options) {
+    if (options.number("grid") > 0 && !(options.number("grid_extent") > 0))
+        throw usageError("--grid needs --grid-extent", "half the side of the square, in mm");
 }
 Param channel() {
     return {.name = "channel",

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "base/param.h"
+#include "job/command.h"
 
 namespace searchlight::option {
 
@@ -34,6 +35,12 @@ Param resume();
 /// Radial bins, and the radius that they end at.
 Param radiiMax();
 Param bins(double value);
+
+/// Cells per side of a square tally of something, and half of its side.
+Param grid(std::string_view of_what);
+Param gridExtent();
+/// Throws a usage Error where the one is given without the other.
+void requireGridExtent(const Options& options);
 
 /// Of a plot: channel, scale of an axis, the one model to show.
 Param channel();

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "job/beam_option.h"
+
 namespace searchlight {
 
 namespace {
@@ -22,7 +24,8 @@ Json layersJson(const SlabProblem& problem, const SlabResult& result) {
             {{"n", layer.n},
              {"sigma_a", layer.sigma_a},
              {"sigma_s", layer.sigma_s},
-             {"g", layer.g},
+             {"g", layer.meanCosine()},
+             {"phase", layer.phase ? "table" : "henyey_greenstein"},
              {"thickness_mm", std::isinf(layer.thickness_mm) ? Json("infinite") : Json(layer.thickness_mm)},
              {"absorbed", estimateJson(result.A_layer[i])}});
     }
@@ -40,6 +43,7 @@ Json slabJson(const SlabProblem& problem, const SlabOptions& options, const Slab
     json["n_above"] = problem.n_above;
     json["n_below"] = problem.n_below;
     json["angle_deg"] = problem.angle_deg;
+    json["beam"] = {{"shape", nameOf(problem.beam.kind)}, {"radius_mm", problem.beam.radius}};
     json["layers"] = layersJson(problem, result);
     json["specular"] = result.specular;
     json["R"] = estimateJson(result.R);
@@ -67,6 +71,13 @@ Json slabJson(const SlabProblem& problem, const SlabOptions& options, const Slab
                         {"T_ra", seriesJson(result.T_ra, "1/(mm^2 sr)")},
                         {"A_rz", seriesJson(result.A_rz, "1/mm^3")},
                         {"fluence_rz", seriesJson(result.fluence_rz, "1/mm^2")}};
+    }
+    if (options.grid > 0) {
+        json["grid"] = {{"cells", options.grid},
+                        {"extent_mm", options.grid_extent_mm},
+                        {"order", "row-major over y then x"},
+                        {"R_xy", seriesJson(result.R_xy, "1/mm^2")},
+                        {"T_xy", seriesJson(result.T_xy, "1/mm^2")}};
     }
     json["walks"] = result.walks;
     json["collisions"] = result.collisions;

@@ -36,7 +36,7 @@ TEST_F(Program, AToggleStandsAloneOrTakesAValue) {
     const json alone = json::parse(run(matched + " --exact").out);
     for (const char* given : {" --exact true", " --exact=on"})
         EXPECT_EQ(json::parse(run(matched + given).out).at("profile"), alone.at("profile")) << given;
-    EXPECT_EQ(json::parse(run(matched + " --walks 10 --exact false").out).at("estimator"), "analogue");
+    EXPECT_EQ(json::parse(run(matched + " --walks 10 --exact false").out).at("estimator"), "best");
     // Before another option.
     EXPECT_EQ(
         json::parse(run("reference halfspace --exact --sigma-a 0.1 --sigma-s 0.9 --eta 1 --json").out).at("walks"), 0);

@@ -1,10 +1,11 @@
-// Tables that users bring, materials and measured profiles: either read or refused with a place.
+// Tables that users bring, materials, measured profiles and phase functions: either read or refused with a place.
 #include <cstdint>
 #include <cstdlib>
 
 #include "base/error.h"
 #include "model/measured_file.h"
 #include "scene/materials.h"
+#include "transport/walk/phase_function.h"
 
 namespace {
 
@@ -24,5 +25,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::string_view text(reinterpret_cast<const char*>(data), size);
     attempt([&] { searchlight::parseMaterials(text, "fuzz.csv"); });
     attempt([&] { searchlight::parseMeasured(text, "fuzz.csv"); });
+    attempt([&] { searchlight::parsePhase(text, "fuzz.csv"); });
     return 0;
 }

@@ -88,7 +88,7 @@ TEST(Mcml, CentimetresBecomeMillimetresAndAnEndlessLayerAHalfSpace) {
     McmlRun run = threeLayers();
     run.layers.back().d = 1e8;
     const SlabProblem problem = slabProblem(run);
-    EXPECT_EQ(problem.layers[0], (SlabLayer{1.37, 0.1, 10, 0.9, 1}));
+    EXPECT_EQ(problem.layers[0], (SlabLayer{.n = 1.37, .sigma_a = 0.1, .sigma_s = 10, .g = 0.9, .thickness_mm = 1}));
     EXPECT_TRUE(std::isinf(problem.layers[2].thickness_mm));
     const SlabOptions options = slabOptions(run);
     EXPECT_DOUBLE_EQ(options.edges_mm.at(7), 1.4);

@@ -332,7 +332,7 @@ TEST(Slab, RefusesImpossibleProblems) {
     SlabOptions fine = o;
     fine.angles = 1'000'000;
     EXPECT_EQ(refusal({1, 1, {{}}}, fine),
-              "the tallies have more than 4 million cells (fewer radial bins, angles or depths)");
+              "the tallies have more than 4 million cells (fewer radial bins, angles, depths or cells)");
 }
 
 }  // namespace

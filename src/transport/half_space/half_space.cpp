@@ -32,6 +32,9 @@ void check(const HalfSpaceProblem& problem) {
     if (!(problem.eta >= 0.1 && problem.eta <= 10)) reject("eta", problem.eta, "0.1 to 10, inside over outside");
     if (!(problem.angle_deg >= 0 && problem.angle_deg < 90))
         reject("the angle of incidence", problem.angle_deg, "0 to below 90 degrees");
+    const BeamShape& beam = problem.beam;
+    if (beam.kind != BeamShape::pencil && !(beam.radius > 0 && beam.radius <= largest))
+        reject("the radius of the beam", beam.radius, "above 0, up to 1e9 mm");
 }
 
 void check(const HalfSpaceOptions& options) {
@@ -192,21 +195,28 @@ HalfSpaceResult walkHalfSpace(const HalfSpaceProblem& problem, const HalfSpaceOp
     result.specular = beam.specular;
     result.threads = options.threads > 0 ? options.threads : hardwareThreads();
     result.instruction_set = halfSpaceInstructionSet();
-    result.estimator = options.grid > 0 ? Estimator::analogue : options.estimator;
+    const bool pencil = problem.beam.kind == BeamShape::pencil;
+    result.estimator = options.grid > 0 || !pencil ? Estimator::analogue : options.estimator;
     if (problem.sigma_s == 0 || beam.specular == 1) {
         result.all = result.single = result.multiple = emptyTally(options);
         return result;
     }
 
     const double sigma_t = problem.sigma_a + problem.sigma_s;
-    const HalfSpaceWalk walk{problem.sigma_a / sigma_t, problem.g, problem.eta, beam.sine, beam.cosine};
+    const HalfSpaceWalk walk{.absorbed = problem.sigma_a / sigma_t,
+                             .g = problem.g,
+                             .eta = problem.eta,
+                             .sin_beam = beam.sine,
+                             .cos_beam = beam.cosine,
+                             .shape = {problem.beam.kind, problem.beam.radius * sigma_t},
+                             .cos_incidence = std::cos(problem.angle_deg * (std::numbers::pi / 180))};
     const std::vector<double> edges = scaled(options.edges_mm, sigma_t);
     const TallyLayout layout{RadialBins(edges), static_cast<std::size_t>(options.grid),
                              options.grid_extent_mm * sigma_t};
     std::optional<BestPlan> best;
     if (result.estimator == Estimator::best) best.emplace(walk, edges);
     ChunkedWalk job;
-    job.plan = planChunks(options.walks);
+    job.plan = planChunks(options.walks, options.control.until_error > 0);
     if (options.control.state && !options.control.state->empty()) job.plan.size = options.control.state->chunk_size;
     job.threads = options.threads;
     job.enough = enoughFor(options.control.until_error, layout);

@@ -1,4 +1,4 @@
-// The searchlight problem by unbiased Monte Carlo: a pencil beam on a half-space, one channel at a time.
+// The searchlight problem by unbiased Monte Carlo: a beam on a half-space, one channel at a time.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +8,7 @@
 #include "base/estimate.h"
 #include "base/observer.h"
 #include "scene/medium.h"
+#include "transport/walk/beam.h"
 #include "transport/walk/walk_state.h"
 
 namespace searchlight {
@@ -18,6 +19,7 @@ struct HalfSpaceProblem {
     double g = 0;          ///< Henyey-Greenstein mean cosine, |g| < 1
     double eta = 1;        ///< refractive index inside over outside; smooth Fresnel boundary
     double angle_deg = 0;  ///< of incidence outside, [0, 90); the refracted beam leans towards +x
+    BeamShape beam = {};        ///< its axis meets the surface at the entry point
 };
 
 /// How a walk becomes a tally; both are unbiased.
@@ -33,7 +35,7 @@ struct HalfSpaceOptions {
     int grid = 0;                  ///< cells per side of the square tally R(x, y); 0: none
     double grid_extent_mm = 0;     ///< the square is [-extent, extent]^2
     int threads = 0;               ///< 0: all
-    Estimator estimator = Estimator::analogue;  ///< a grid is always walked by the analogue
+    Estimator estimator = Estimator::analogue;  ///< a grid or a wide beam is always walked by the analogue
     WalkControl control;  ///< until_error: of the total, and of the profile: the mean over its bins, weighted by flux
 };
 

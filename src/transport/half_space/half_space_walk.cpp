@@ -47,7 +47,7 @@ public:
         absorbing_ = walk.absorbed > 0;
         collisions_per_log_ = absorbing_ ? static_cast<float>(std::min(-1 / log_albedo, 1e30)) : 0.0f;
         seed(*from_, seeds);
-        long_walks_ = SplitMix64(seeds.next());
+        rare_ = SplitMix64(seeds.next());
     }
 
     std::uint64_t run() {
@@ -99,6 +99,7 @@ public:
         const Started started = takeWaiting(free, waiting_);
         const IntV survives = drawSurvives(pack.random, started.lanes);
         moveToEntry(pack, free, walk_.sin_beam, walk_.cos_beam);
+        if (walk_.shape.kind != BeamShape::pencil) place(pack, started.lanes);
         park(pack, hn::AndNot(started.lanes, free));
         const IntV drawn = hn::IfThenElse(hn::RebindMask(di, started.lanes), survives, hn::Set(di, kNever));
         storeWhere(hn::RebindMask(di, free), drawn, survives_ + at);
@@ -107,6 +108,19 @@ public:
 
 private:
     static HWY_INLINE FloatV set(double value) { return hn::Set(Float(), static_cast<float>(value)); }
+
+    // Anywhere in the beam.
+    HWY_NOINLINE void place(Pack& pack, FloatM starts) {
+        const Float d;
+        HWY_ALIGN float x[16] = {}, y[16] = {};
+        forEachLane(starts, [&](std::size_t lane, std::size_t) {
+            const BeamPoint point = walk_.shape.draw(rare_, walk_.cos_incidence);
+            x[lane] = static_cast<float>(point.x);
+            y[lane] = static_cast<float>(point.y);
+        });
+        pack.x = hn::IfThenElse(starts, hn::Load(d, x), pack.x);
+        pack.y = hn::IfThenElse(starts, hn::Load(d, y), pack.y);
+    }
 
     // Walks absorbed by the collision that they just had (unless the surface let them out before it).
     HWY_INLINE FloatM ends(const Pack& pack, std::size_t at) const {
@@ -145,9 +159,8 @@ private:
         const Int di;
         HWY_ALIGN std::int32_t ends[16];
         hn::Store(survives, di, ends);
-        forEachLane(is_long, [&](std::size_t lane, std::size_t) {
-            ends[lane] = std::min(ends[lane], longWalkSurvives(long_walks_));
-        });
+        forEachLane(is_long,
+                    [&](std::size_t lane, std::size_t) { ends[lane] = std::min(ends[lane], longWalkSurvives(rare_)); });
         return hn::Load(di, ends);
     }
 
@@ -156,7 +169,7 @@ private:
     float collisions_per_log_;  // -1 / log(albedo)
     std::uint64_t waiting_;     // walks not yet started
     std::uint64_t exits_total_ = 0;
-    SplitMix64 long_walks_;
+    SplitMix64 rare_;
     ExitTally& tally_;
     Lanes lanes_[2];
     Lanes *from_ = &lanes_[0], *to_ = &lanes_[1];  // before and after the current step

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "transport/walk/beam.h"
 #include "transport/walk/tally.h"
 
 namespace searchlight {
@@ -15,6 +16,8 @@ struct HalfSpaceWalk {
     double eta = 1;       ///< inside over outside
     double sin_beam = 0;  ///< of the refracted beam, which leans towards +x
     double cos_beam = 1;
+    BeamShape shape = {};           ///< its radius in mean free paths
+    double cos_incidence = 1;  ///< outside
 };
 
 /// Starts `walks` walks of the stream (seed, chunk), finishes them all and adds every exit to the tally. Returns the

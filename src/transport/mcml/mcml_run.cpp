@@ -82,10 +82,13 @@ private:
 }  // namespace
 
 SlabProblem slabProblem(const McmlRun& run) {
-    SlabProblem problem{run.n_above, run.n_below, {}, 0};
+    SlabProblem problem{.n_above = run.n_above, .n_below = run.n_below};
     for (const McmlLayer& layer : run.layers) {
-        SlabLayer& mm = problem.layers.emplace_back(
-            SlabLayer{layer.n, layer.mua / kMmPerCm, layer.mus / kMmPerCm, layer.g, layer.d * kMmPerCm});
+        SlabLayer& mm = problem.layers.emplace_back(SlabLayer{.n = layer.n,
+                                                              .sigma_a = layer.mua / kMmPerCm,
+                                                              .sigma_s = layer.mus / kMmPerCm,
+                                                              .g = layer.g,
+                                                              .thickness_mm = layer.d * kMmPerCm});
         if (layer.d >= kEndless_cm && problem.layers.size() == run.layers.size() && !mm.clear())
             mm.thickness_mm = std::numeric_limits<double>::infinity();
     }

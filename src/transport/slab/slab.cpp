@@ -36,6 +36,9 @@ void check(const SlabProblem& problem) {
     checkIndex("the refractive index below", problem.n_below);
     if (!(problem.angle_deg >= 0 && problem.angle_deg < 90))
         reject("the angle of incidence", problem.angle_deg, "0 to below 90 degrees");
+    const BeamShape& beam = problem.beam;
+    if (beam.kind != BeamShape::pencil && !(beam.radius > 0 && beam.radius <= kLargest))
+        reject("the radius of the beam", beam.radius, "above 0, up to 1e9 mm");
     if (problem.layers.empty()) throw inputError("a slab needs at least one layer");
     for (std::size_t i = 0; i < problem.layers.size(); ++i) {
         const SlabLayer& layer = problem.layers[i];
@@ -66,10 +69,13 @@ void check(const SlabOptions& options) {
     if (options.depths < 1) reject("the number of depths", options.depths, "1 or more");
     if (!(options.depth_mm > 0 && options.depth_mm <= kLargest))
         reject("the depth of the tally", options.depth_mm, "above 0, up to 1e9 mm");
-    const double rows = static_cast<double>(edges.size()) + 1;
+    if (options.grid < 0) reject("the grid", options.grid, "0 or more cells a side");
+    if (options.grid > 0 && !(options.grid_extent_mm > 0 && options.grid_extent_mm <= kLargest))
+        reject("the extent of the grid", options.grid_extent_mm, "above 0, up to 1e9 mm");
+    const double rows = static_cast<double>(edges.size()) + 1, side = options.grid;
     const double cells = 2.0 * options.angles + 2.0 * options.depths + 2;
-    if (options.maps ? rows * cells > kMostSlots : 4 * rows + cells > kMostSlots)
-        throw inputError("the tallies have more than 4 million cells", "fewer radial bins, angles or depths");
+    if ((options.maps ? rows * cells : 4 * rows + cells) + 2 * side * side > kMostSlots)
+        throw inputError("the tallies have more than 4 million cells", "fewer radial bins, angles, depths or cells");
 }
 
 // Unpolarised; n sin = `invariant` on both sides.
@@ -82,37 +88,37 @@ double reflectance(double n, double n_beyond, double invariant) {
 }
 
 // The beam down to its first layer that is not clear (to below the slab when all are).
-struct Beam {
+struct Entry {
     double specular = 0;
-    std::vector<SlabWalk::Surface> entry;
+    std::vector<SlabWalk::Surface> surfaces;
     std::size_t first = 0;
     double sine = 0;  ///< in that layer
 };
 
-Beam beamOf(const SlabProblem& problem) {
+Entry entryOf(const SlabProblem& problem) {
     const double angle = problem.angle_deg * (std::numbers::pi / 180);
     const double invariant = problem.n_above * std::sin(angle);
-    Beam beam;
+    Entry entry;
     double n = problem.n_above;
     const std::vector<SlabLayer>& layers = problem.layers;
-    for (;; ++beam.first) {
-        const bool below = beam.first == layers.size();
-        const double next = below ? problem.n_below : layers[beam.first].n;
-        beam.entry.push_back({reflectance(n, next, invariant)});
+    for (;; ++entry.first) {
+        const bool below = entry.first == layers.size();
+        const double next = below ? problem.n_below : layers[entry.first].n;
+        entry.surfaces.push_back({reflectance(n, next, invariant)});
         n = next;
-        if (below || !layers[beam.first].clear()) break;
+        if (below || !layers[entry.first].clear()) break;
         const double sine = std::min(invariant / n, 1.0);
         // Beyond total reflection nothing gets here.
-        beam.entry.back().shift_mm =
-            sine < 1 ? layers[beam.first].thickness_mm * sine / std::sqrt((1 - sine) * (1 + sine)) : 0;
+        entry.surfaces.back().shift_mm =
+            sine < 1 ? layers[entry.first].thickness_mm * sine / std::sqrt((1 - sine) * (1 + sine)) : 0;
     }
-    beam.sine = std::min(invariant / n, 1.0);
+    entry.sine = std::min(invariant / n, 1.0);
     // Intensities add up between clear layers, from the lowest surface up; [Wang1995] does so for one layer.
-    for (auto surface = beam.entry.rbegin(); surface != beam.entry.rend(); ++surface) {
-        const double r = surface->reflectance, rest = beam.specular;
-        beam.specular = r == 1 ? 1 : r + (1 - r) * (1 - r) * rest / (1 - r * rest);
+    for (auto surface = entry.surfaces.rbegin(); surface != entry.surfaces.rend(); ++surface) {
+        const double r = surface->reflectance, rest = entry.specular;
+        entry.specular = r == 1 ? 1 : r + (1 - r) * (1 - r) * rest / (1 - r * rest);
     }
-    return beam;
+    return entry;
 }
 
 // Which part of the collisions the tally counts: all would take more time than the walk. Where walks collide often
@@ -128,7 +134,7 @@ SlabLayout::Layer countedCollision(const SlabLayer& layer, double top_mm) {
     return {top_mm, layer.sigma_a / counted, 1 / counted};
 }
 
-SlabWalk walkOf(const SlabProblem& problem, const Beam& beam) {
+SlabWalk walkOf(const SlabProblem& problem, const Entry& entry) {
     SlabWalk walk;
     const std::vector<SlabLayer>& layers = problem.layers;
     for (std::size_t i = 0; i < layers.size(); ++i) {
@@ -141,14 +147,17 @@ SlabWalk walkOf(const SlabProblem& problem, const Beam& beam) {
         into.absorbed = layer.clear() ? 0 : layer.sigma_a / sigma_t;
         into.counted = layer.clear() ? 0 : countedPart(layer);
         into.g = layer.g;
+        if (layer.phase) into.phase = walk.tables.add(*layer.phase);
         into.thickness_mm = layer.thickness_mm;
         into.eta_up = layer.n / above;
         into.eta_down = layer.n / below;
     }
-    if (problem.angle_deg > 0 && beam.first > 0) walk.entry = beam.entry;
-    walk.first = static_cast<std::int32_t>(beam.first);
-    walk.sin_beam = beam.sine;
-    walk.cos_beam = std::sqrt((1 - beam.sine) * (1 + beam.sine));
+    if (problem.angle_deg > 0 && entry.first > 0) walk.entry = entry.surfaces;
+    walk.shape = problem.beam;
+    walk.cos_incidence = std::cos(problem.angle_deg * (std::numbers::pi / 180));
+    walk.first = static_cast<std::int32_t>(entry.first);
+    walk.sin_beam = entry.sine;
+    walk.cos_beam = std::sqrt((1 - entry.sine) * (1 + entry.sine));
     return walk;
 }
 
@@ -218,6 +227,12 @@ public:
                 append(result.T_ra, series(SlabLayout::T_ra, angle, cells));
                 depths(result.A_rz, result.fluence_rz, SlabLayout::A_rz, SlabLayout::F_rz, depth, areas[row]);
             }
+        }
+        if (layout_.grid() > 0) {
+            const double side = 2 * options_.grid_extent_mm / options_.grid;
+            const std::vector<double> cells(layout_.grid() * layout_.grid(), side * side);
+            result.R_xy = series(SlabLayout::R_xy, 0, cells);
+            result.T_xy = series(SlabLayout::T_xy, 0, cells);
         }
         for (std::size_t slot = 0; slot < layout_.slots(); ++slot) result.flux.push_back(flux(slot, 0).mean);
     }
@@ -321,26 +336,26 @@ SlabLayout slabLayout(const SlabProblem& problem, const SlabOptions& options) {
             static_cast<std::size_t>(options.angles),
             static_cast<std::size_t>(options.depths),
             options.depth_mm,
-            options.maps,
+            {options.maps, static_cast<std::size_t>(options.grid), options.grid_extent_mm},
             std::move(layers)};
 }
 
 SlabResult walkSlab(const SlabProblem& problem, const SlabOptions& options, Observer& observer) {
     const SlabLayout layout = slabLayout(problem, options);
-    const Beam beam = beamOf(problem);
+    const Entry entry = entryOf(problem);
     SlabResult result;
-    result.specular = beam.specular;
+    result.specular = entry.specular;
     result.threads = options.threads > 0 ? options.threads : hardwareThreads();
     result.instruction_set = slabInstructionSet();
-    if (beam.first == problem.layers.size() || beam.specular == 1) {  // nothing to walk in
-        Reduction(problem, options, layout, 1 - beam.specular, BatchRatios(layout.slots()), 0).finish(result);
-        result.T_unscattered = {1 - beam.specular, 0, 0};
+    if (entry.first == problem.layers.size() || entry.specular == 1) {  // nothing to walk in
+        Reduction(problem, options, layout, 1 - entry.specular, BatchRatios(layout.slots()), 0).finish(result);
+        result.T_unscattered = {1 - entry.specular, 0, 0};
         return result;
     }
 
-    const SlabWalk walk = walkOf(problem, beam);
+    const SlabWalk walk = walkOf(problem, entry);
     ChunkedWalk job;
-    job.plan = planChunks(options.walks);
+    job.plan = planChunks(options.walks, options.control.until_error > 0);
     if (options.control.state && !options.control.state->empty()) job.plan.size = options.control.state->chunk_size;
     job.threads = options.threads;
     job.enough = enoughFor(options.control.until_error, layout);
@@ -358,7 +373,7 @@ SlabResult walkSlab(const SlabProblem& problem, const SlabOptions& options, Obse
     result.walks = walked.walks;
     result.collisions = walked.collisions;
     result.interrupted = walked.interrupted;
-    Reduction(problem, options, layout, 1 - beam.specular, walked.sums[0], walked.walks).finish(result);
+    Reduction(problem, options, layout, 1 - entry.specular, walked.sums[0], walked.walks).finish(result);
     return result;
 }
 

@@ -1,8 +1,9 @@
-// A pencil beam on plane layers by unbiased Monte Carlo: MCML's problem, oblique incidence as well.
+// A beam on plane layers by unbiased Monte Carlo: MCML's problem; oblique, wide beams and any phase function as well.
 #pragma once
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,19 +11,23 @@
 #include "base/estimate.h"
 #include "base/observer.h"
 #include "transport/slab/slab_tally.h"
+#include "transport/walk/beam.h"
+#include "transport/walk/phase_function.h"
 #include "transport/walk/walk_state.h"
 
 namespace searchlight {
 
 /// One plane layer between smooth Fresnel surfaces. One that neither absorbs nor scatters is clear: glass, or a gap.
 struct SlabLayer {
-    double n = 1;             ///< refractive index
-    double sigma_a = 0;       ///< 1/mm
-    double sigma_s = 0;       ///< 1/mm, not reduced
-    double g = 0;             ///< Henyey-Greenstein mean cosine, |g| < 1
-    double thickness_mm = 1;  ///< infinity in the last layer: a half-space
+    double n = 1;                        ///< refractive index
+    double sigma_a = 0;                  ///< 1/mm
+    double sigma_s = 0;                  ///< 1/mm, not reduced
+    double g = 0;                        ///< Henyey-Greenstein mean cosine, |g| < 1; not read where there is a phase
+    double thickness_mm = 1;             ///< infinity in the last layer: a half-space
+    std::optional<PhaseFunction> phase = {};  ///< in place of Henyey-Greenstein
 
     bool clear() const { return sigma_a == 0 && sigma_s == 0; }
+    double meanCosine() const { return phase ? searchlight::meanCosine(*phase) : g; }
     bool operator==(const SlabLayer&) const = default;
 };
 
@@ -30,6 +35,7 @@ struct SlabProblem {
     double n_above = 1, n_below = 1;
     std::vector<SlabLayer> layers;  ///< from the top, where the beam comes from
     double angle_deg = 0;           ///< of incidence above, [0, 90); the refracted beam leans towards +x
+    BeamShape beam = {};
 
     bool operator==(const SlabProblem&) const = default;
 };
@@ -42,6 +48,8 @@ struct SlabOptions {
     int depths = 100;              ///< equal parts of depth_mm
     double depth_mm = 0;           ///< from the top of the slab
     bool maps = false;             ///< the tallies over two variables, too
+    int grid = 0;                  ///< cells per side of R(x, y) and T(x, y); 0: none
+    double grid_extent_mm = 0;     ///< the square is [-extent, extent]^2
     int threads = 0;               ///< 0: all
     WalkControl control;           ///< until_error: of R, T and A, those above 0
 };
@@ -69,6 +77,7 @@ struct SlabResult {
     SlabSeries R_ra, T_ra;     ///< radiance, 1/(mm^2 sr): per solid angle times cosine
     SlabSeries A_rz;           ///< 1/mm^3
     SlabSeries fluence_rz;     ///< 1/mm^2
+    SlabSeries R_xy, T_xy;     ///< 1/mm^2, scattered; row-major over y then x; empty without a grid
     std::vector<double> flux;  ///< mean per slot of slabLayout, for writers that need what the series leave out
     std::uint64_t walks = 0;
     std::uint64_t collisions = 0;
@@ -86,8 +95,8 @@ SlabLayout slabLayout(const SlabProblem& problem, const SlabOptions& options);
 SlabResult walkSlab(const SlabProblem& problem, const SlabOptions& options, Observer& observer);
 
 /// Reads `{"format": "searchlight-layers/1", "n_above", "n_below", "layers": [{"n", "sigma_a", "sigma_s", "g",
-/// "thickness_mm"}]}`; thickness_mm of the last layer may be "infinite". Throws an input Error with file, line, column
-/// and JSON pointer.
+/// "thickness_mm"}]}`; thickness_mm of the last layer may be "infinite"; "phase" in place of g is "rayleigh" or a table
+/// (parsePhase) beside the file. Throws an input Error with file, line, column and JSON pointer.
 SlabProblem parseLayers(std::string_view text, std::string_view path);
 
 }  // namespace searchlight

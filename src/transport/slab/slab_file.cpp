@@ -2,8 +2,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "base/error.h"
+#include "base/files.h"
 #include "scene/json_text.h"
 #include "transport/slab/slab.h"
 
@@ -33,7 +35,7 @@ const std::vector<Param>& layerParams() {
 
 class LayersReader {
 public:
-    LayersReader(std::string_view text, std::string_view path) : text_(text, path) {}
+    LayersReader(std::string_view text, std::string_view path) : text_(text, path), path_(path) {}
 
     SlabProblem read() const {
         const json& root = text_.root();
@@ -80,7 +82,7 @@ private:
     SlabLayer layer(const json& object, const std::string& pointer, bool last) const {
         if (!object.is_object())
             throw text_.error(pointer, "a layer is a JSON object", "{\"sigma_a\": ..., \"thickness_mm\": ...}");
-        checkKeys(object, pointer, layerParams(), {});
+        checkKeys(object, pointer, layerParams(), {"phase"});
         for (const char* key : {"n", "sigma_a", "sigma_s", "thickness_mm"})
             if (!object.contains(key)) throw text_.error(pointer, fmt::format("the layer has no {}", key));
         SlabLayer layer;
@@ -89,6 +91,7 @@ private:
         layer.sigma_a = numberAt(object, pointer, params[1]);
         layer.sigma_s = numberAt(object, pointer, params[2]);
         layer.g = numberAt(object, pointer, params[3]);
+        if (object.contains("phase")) layer.phase = phase(object, pointer);
         if (object["thickness_mm"] != "infinite") {
             layer.thickness_mm = numberAt(object, pointer, params[4]);
             return layer;
@@ -101,7 +104,19 @@ private:
         return layer;
     }
 
+    PhaseFunction phase(const json& object, const std::string& pointer) const {
+        const std::string at = pointer + "/phase";
+        if (object.contains("g")) throw text_.error(at, "phase and g exclude each other", "give one of the two");
+        const json& name = object["phase"];
+        if (!name.is_string() || name.get<std::string>().empty())
+            throw text_.error(at, "the phase function has no name", "\"rayleigh\", or a file with angle_deg, p");
+        if (name == "rayleigh") return rayleighPhase();
+        const std::filesystem::path file = path_.parent_path() / name.get<std::string>();
+        return parsePhase(readFile(file), file.string());
+    }
+
     JsonText text_;
+    std::filesystem::path path_;
 };
 
 }  // namespace

@@ -24,13 +24,14 @@ double weightOf(std::int32_t collisions) { return collisions <= kLongWalk ? 1.0 
 }  // namespace
 
 SlabLayout::SlabLayout(std::span<const double> edges, std::size_t angles, std::size_t depths, double depth_mm,
-                       bool maps, std::vector<Layer> layers)
+                       Maps maps, std::vector<Layer> layers)
     : radii_(edges),
       sines_(sineEdges(angles)),
       angles_(angles),
       depths_(depths),
       depths_per_mm_(static_cast<double>(depths) / depth_mm),
       maps_(maps),
+      cells_per_mm_(maps.grid > 0 ? 0.5 * static_cast<double>(maps.grid) / maps.grid_extent_mm : 0),
       layers_(std::move(layers)) {
     std::size_t sizes[runs];
     std::fill(std::begin(sizes), std::end(sizes), std::size_t{1});
@@ -38,8 +39,9 @@ SlabLayout::SlabLayout(std::span<const double> edges, std::size_t angles, std::s
     for (const Run run : {R_r, R_r_single, R_r_multiple, T_r}) sizes[run] = rows();
     for (const Run run : {R_a, T_a}) sizes[run] = angles_;
     for (const Run run : {A_z, F_z}) sizes[run] = this->depths();
-    for (const Run run : {R_ra, T_ra}) sizes[run] = maps ? rows() * angles_ : 0;
-    for (const Run run : {A_rz, F_rz}) sizes[run] = maps ? rows() * this->depths() : 0;
+    for (const Run run : {R_ra, T_ra}) sizes[run] = maps.radial ? rows() * angles_ : 0;
+    for (const Run run : {A_rz, F_rz}) sizes[run] = maps.radial ? rows() * this->depths() : 0;
+    for (const Run run : {R_xy, T_xy}) sizes[run] = maps.grid * maps.grid;
     for (int run = 0; run < runs; ++run) first_[run + 1] = first_[run] + sizes[run];
 }
 
@@ -50,6 +52,14 @@ std::size_t SlabLayout::angle(double cosine) const {
 std::size_t SlabLayout::depth(double z_mm) const {
     const double cell = z_mm * depths_per_mm_;
     return cell < static_cast<double>(depths_) ? static_cast<std::size_t>(cell) : depths_;
+}
+
+std::optional<std::size_t> SlabLayout::cell(double x_mm, double y_mm) const {
+    const double side = static_cast<double>(maps_.grid);
+    const double column = (x_mm + maps_.grid_extent_mm) * cells_per_mm_;
+    const double row = (y_mm + maps_.grid_extent_mm) * cells_per_mm_;
+    if (!(column >= 0 && column < side && row >= 0 && row < side)) return {};
+    return static_cast<std::size_t>(row) * maps_.grid + static_cast<std::size_t>(column);
 }
 
 void SlabTally::addAbsorbed(const Ends& ends) {
@@ -98,6 +108,9 @@ void SlabTally::addExits(const Ends& ends) {
         at(reflected ? SlabLayout::R_a : SlabLayout::T_a, angle) += weight;
         if (layout_->maps())
             at(reflected ? SlabLayout::R_ra : SlabLayout::T_ra, row * layout_->angles() + angle) += weight;
+        if (layout_->grid() == 0) continue;
+        if (const std::optional<std::size_t> cell = layout_->cell(x, y))
+            at(reflected ? SlabLayout::R_xy : SlabLayout::T_xy, *cell) += weight;
     }
 }
 

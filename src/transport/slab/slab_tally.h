@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -36,6 +37,8 @@ public:
         T_ra,           ///< rows x angles, scattered
         A_rz,           ///< rows x depths
         F_rz,           ///< rows x depths
+        R_xy,           ///< cells, scattered; this and the next are empty unless there is a grid
+        T_xy,           ///< cells, scattered
         runs
     };
 
@@ -45,8 +48,15 @@ public:
         double fluence_mm = 0;  ///< times volume, the same
     };
 
+    /// What may be tallied over two variables.
+    struct Maps {
+        bool radial = false;   ///< over the annulus, and angle or depth
+        std::size_t grid = 0;  ///< cells per side of [-extent, extent]^2
+        double grid_extent_mm = 0;
+    };
+
     /// edges: of the annuli, mm, as RadialBins takes them.
-    SlabLayout(std::span<const double> edges, std::size_t angles, std::size_t depths, double depth_mm, bool maps,
+    SlabLayout(std::span<const double> edges, std::size_t angles, std::size_t depths, double depth_mm, Maps maps,
                std::vector<Layer> layers);
 
     std::size_t first(Run run) const { return first_[run]; }
@@ -55,18 +65,22 @@ public:
     std::size_t rows() const { return radii_.slots(); }
     std::size_t angles() const { return angles_; }
     std::size_t depths() const { return depths_ + 1; }
-    bool maps() const { return maps_; }
+    bool maps() const { return maps_.radial; }
+    std::size_t grid() const { return maps_.grid; }
 
     const std::vector<Layer>& layers() const { return layers_; }
     std::size_t row(double r2) const { return radii_.slot(r2); }
     std::size_t angle(double cosine) const;
     std::size_t depth(double z_mm) const;
+    /// Index of the cell of the grid; none outside.
+    std::optional<std::size_t> cell(double x_mm, double y_mm) const;
 
 private:
     RadialBins radii_, sines_;
     std::size_t angles_, depths_;
     double depths_per_mm_;
-    bool maps_;
+    Maps maps_;
+    double cells_per_mm_;
     std::vector<Layer> layers_;
     std::size_t first_[runs + 1] = {};
 };

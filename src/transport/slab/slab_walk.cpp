@@ -35,6 +35,8 @@ struct alignas(64) Layers {
     std::int32_t index[kLanes];
     float mfp[kLanes], thickness[kLanes];
     float g[kLanes], half_qq[kLanes];
+    std::int32_t table[kLanes];     // first bin of its phase function
+    float table_bins[kLanes];       // 0: Henyey-Greenstein
     std::int32_t absorbed[kLanes];  // probability, in units of 2^-30
     std::int32_t counted[kLanes];   // the same
     std::int32_t survives[kLanes];  // so many collisions; the next one meets the roulette of long walks
@@ -65,7 +67,9 @@ struct Ends {
     }
 };
 
-template <bool kIsotropic>
+enum class Phase { isotropic, henyey_greenstein, any };
+
+template <Phase kPhase>
 class SlabWalker {
 public:
     SlabWalker(const SlabWalk& walk, SplitMix64 seeds, std::uint64_t walks, SlabTally& tally)
@@ -75,6 +79,8 @@ public:
             thickness_.push_back(static_cast<float>(layer.thickness_mm));
             g_.push_back(static_cast<float>(layer.g));
             half_qq_.push_back(static_cast<float>(0.5 * (1 - layer.g) * (1 - layer.g)));
+            table_.push_back(layer.phase.first);
+            table_bins_.push_back(static_cast<float>(layer.phase.count));
             absorbed_.push_back(static_cast<std::int32_t>(std::lround(layer.absorbed * 0x1p30)));
             counted_.push_back(static_cast<std::int32_t>(std::lround(layer.counted * 0x1p30)));
             eta_.push_back(static_cast<float>(layer.eta_down));
@@ -109,7 +115,7 @@ public:
         const FloatM counted = hn::RebindMask(d, hn::Lt(chance, hn::Load(di, layers_.counted + at)));
         count(pack, hn::AndNot(crosses, counted), at);
 
-        scatter<kIsotropic>(pack, hn::Load(d, layers_.g + at), hn::Load(d, layers_.half_qq + at));
+        turn(pack, at);
         store(pack, *to_, at);
         const hn::Mask<Int> is_long = hn::Gt(pack.collisions, hn::Load(di, layers_.survives + at));
         return !hn::AllFalse(d, hn::Or(crosses, hn::RebindMask(d, hn::Or(absorbed, is_long))));
@@ -152,7 +158,7 @@ public:
         if (!all_start) started = static_cast<std::size_t>(waiting_);
         waiting_ -= started;
         moveToEntry(pack, free, walk_.sin_beam, walk_.cos_beam);
-        if (walk_.entry.size() > 1) pack.x = hn::IfThenElse(free, entryShifts(free, started), pack.x);
+        if (walk_.entry.size() > 1 || walk_.shape.kind != BeamShape::pencil) place(pack, free, started);
         enter(free, hn::Set(di, walk_.first), at);
         storeWhere(hn::RebindMask(di, free), hn::Set(di, kLongWalk), layers_.survives + at);
         if (!all_start) park(free, started, at);
@@ -160,6 +166,25 @@ public:
     }
 
 private:
+    // Into the direction after a collision.
+    HWY_INLINE void turn(Pack& pack, std::size_t at) {
+        const Float d;
+        const Int di;
+        if constexpr (kPhase != Phase::any) {
+            scatter<kPhase == Phase::isotropic>(pack, hn::Load(d, layers_.g + at), hn::Load(d, layers_.half_qq + at));
+        } else {
+            const FloatV bins = hn::Load(d, layers_.table_bins + at);
+            const FloatM tabulated = hn::Gt(bins, hn::Zero(d));
+            const IntV bits = pack.random.next();
+            const FloatV cosine = henyeyGreensteinVersine(hn::Load(d, layers_.g + at),
+                                                          hn::Load(d, layers_.half_qq + at), signedUniform(bits));
+            const FloatV table = tabulatedVersine(walk_.tables, hn::Load(di, layers_.table + at),
+                                                  hn::Max(bins, hn::Set(d, 1.0f)), bits, pack.random.next());
+            pack.direction =
+                turnedBy(pack.direction, hn::IfThenElse(tabulated, table, cosine), azimuth(pack.random.next()));
+        }
+    }
+
     HWY_INLINE FloatM outside(const Pack& pack, std::size_t at) const {
         const Float d;
         return hn::Or(hn::Lt(pack.z, hn::Zero(d)), hn::Gt(pack.z, hn::Load(d, layers_.thickness + at)));
@@ -224,9 +249,13 @@ private:
         };
         set(layers_.mfp, mfp_);
         set(layers_.thickness, thickness_);
-        if constexpr (!kIsotropic) {
+        if constexpr (kPhase != Phase::isotropic) {
             set(layers_.g, g_);
             set(layers_.half_qq, half_qq_);
+        }
+        if constexpr (kPhase == Phase::any) {
+            set(layers_.table_bins, table_bins_);
+            storeWhere(enters_i, hn::GatherIndex(di, table_.data(), valid), layers_.table + at);
         }
         storeWhere(enters_i, hn::GatherIndex(di, absorbed_.data(), valid), layers_.absorbed + at);
         storeWhere(enters_i, hn::GatherIndex(di, counted_.data(), valid), layers_.counted + at);
@@ -244,13 +273,20 @@ private:
         });
     }
 
-    // Where the beam enters its first layer that scatters or absorbs, after reflections between the clear ones above.
-    HWY_NOINLINE FloatV entryShifts(FloatM free, std::size_t started) {
-        HWY_ALIGN float shifts[16] = {};
+    // Where walks enter their first layer that scatters or absorbs: anywhere in the beam, after reflections between
+    // the clear layers above.
+    HWY_NOINLINE void place(Pack& pack, FloatM free, std::size_t started) {
+        const Float d;
+        HWY_ALIGN float x[16] = {}, y[16] = {};
         forEachLane(free, [&](std::size_t lane, std::size_t i) {
-            if (i < started) shifts[lane] = entryShift();
+            if (i >= started) return;
+            const BeamPoint point = walk_.shape.draw(rare_, walk_.cos_incidence);
+            x[lane] = static_cast<float>(point.x);
+            y[lane] = static_cast<float>(point.y);
+            if (walk_.entry.size() > 1) x[lane] += entryShift();
         });
-        return hn::Load(Float(), shifts);
+        pack.x = hn::IfThenElse(free, hn::Load(d, x), pack.x);
+        pack.y = hn::IfThenElse(free, hn::Load(d, y), pack.y);
     }
 
     float entryShift() {
@@ -291,7 +327,8 @@ private:
     SplitMix64 rare_;
     SlabTally& tally_;
     std::int32_t count_;
-    std::vector<float> mfp_, thickness_, g_, half_qq_;
+    std::vector<float> mfp_, thickness_, g_, half_qq_, table_bins_;
+    std::vector<std::int32_t> table_;
     std::vector<float> eta_;  // per layer: downwards, upwards
     std::vector<std::int32_t> absorbed_, counted_;
     Lanes lanes_[2];
@@ -302,10 +339,15 @@ private:
 
 }  // namespace
 
+template <Phase kPhase>
+std::uint64_t walkAs(const SlabWalk& walk, SplitMix64 seeds, std::uint64_t walks, SlabTally& tally) {
+    return std::make_unique<SlabWalker<kPhase>>(walk, seeds, walks, tally)->run();
+}
+
 std::uint64_t walkSlab(const SlabWalk& walk, SplitMix64 seeds, std::uint64_t walks, SlabTally& tally) {
+    if (!walk.tables.stay.empty()) return walkAs<Phase::any>(walk, seeds, walks, tally);
     const bool isotropic = std::ranges::all_of(walk.layers, [](const SlabWalk::Layer& layer) { return layer.g == 0; });
-    return isotropic ? std::make_unique<SlabWalker<true>>(walk, seeds, walks, tally)->run()
-                     : std::make_unique<SlabWalker<false>>(walk, seeds, walks, tally)->run();
+    return (isotropic ? walkAs<Phase::isotropic> : walkAs<Phase::henyey_greenstein>)(walk, seeds, walks, tally);
 }
 
 const char* slabTarget() { return hwy::TargetName(HWY_TARGET); }

@@ -5,21 +5,25 @@
 #include <vector>
 
 #include "transport/slab/slab_tally.h"
+#include "transport/walk/beam.h"
+#include "transport/walk/phase_function.h"
 
 namespace searchlight {
 
 /// What a walk knows of its slab. Lengths are in mm.
 struct SlabWalk {
     struct Layer {
-        double mfp_mm = 1;    ///< 1 / sigma_t; a huge number where nothing happens
-        double absorbed = 0;  ///< 1 - albedo
-        double counted = 0;   ///< part of the collisions that the tally counts, at least `absorbed`
-        double g = 0;
-        double thickness_mm = 1;  ///< infinity: the last layer has no lower surface
-        double eta_up = 1;        ///< refractive index of this layer over that above
-        double eta_down = 1;      ///< over that below
+        double mfp_mm = 1;         ///< 1 / sigma_t; a huge number where nothing happens
+        double absorbed = 0;       ///< 1 - albedo
+        double counted = 0;        ///< part of the collisions that the tally counts, at least `absorbed`
+        double g = 0;              ///< of Henyey-Greenstein, unless there is a table
+        double thickness_mm = 1;   ///< infinity: the last layer has no lower surface
+        double eta_up = 1;         ///< refractive index of this layer over that above
+        double eta_down = 1;       ///< over that below
+        PhaseTables::Range phase = {};  ///< in `tables`, in place of g
     };
     std::vector<Layer> layers;
+    PhaseTables tables;
     /// The beam enters `first` through the clear layers above it, where it crossed `entry` surfaces: it is reflected
     /// at surface i with probability reflectance and shifts by shift_mm across the layer above surface i + 1.
     struct Surface {
@@ -28,6 +32,8 @@ struct SlabWalk {
     std::vector<Surface> entry;
     std::int32_t first = 0;
     double sin_beam = 0, cos_beam = 1;  ///< in that layer; leans towards +x
+    BeamShape shape = {};
+    double cos_incidence = 1;  ///< outside
 };
 
 /// Starts `walks` walks of the stream (seed, chunk), finishes them all and adds every end to the tally. Returns the

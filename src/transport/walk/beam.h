@@ -1,12 +1,38 @@
-// How a beam enters a half-space through its smooth surface.
+// How a beam is wide, and how it enters a half-space through its smooth surface.
 #pragma once
 
 #include <cmath>
 #include <numbers>
 
 #include "transport/walk/fresnel.h"
+#include "transport/walk/random.h"
 
 namespace searchlight {
+
+struct BeamPoint {
+    double x = 0, y = 0;
+};
+
+/// The cross-section of a parallel beam, across its direction.
+struct BeamShape {
+    enum Kind {
+        pencil,
+        gaussian,  ///< radius: where it has fallen to 1/e^2
+        flat,      ///< even within the radius
+    };
+    Kind kind = pencil;
+    double radius = 0;  ///< mm, or the walk's unit of length
+
+    bool operator==(const BeamShape&) const = default;
+
+    /// A point of the surface, (0, 0) on the axis; cosine: of incidence, outside, in the plane y = 0.
+    BeamPoint draw(SplitMix64& random, double cosine) const {
+        if (kind == pencil) return {};
+        const double u = random.uniform(), azimuth = 2 * std::numbers::pi * random.uniform();
+        const double r = radius * (kind == flat ? std::sqrt(u) : std::sqrt(-0.5 * std::log(u)));
+        return {r * std::cos(azimuth) / cosine, r * std::sin(azimuth)};
+    }
+};
 
 struct Beam {
     double specular = 0;          ///< Fresnel reflectance, unpolarised; 1 beyond the critical angle of a thinner medium

@@ -8,12 +8,12 @@ namespace searchlight {
 namespace {
 
 constexpr std::uint64_t kFewestChunks = 64;
-constexpr std::uint64_t kLargestChunk = 65'536;
+constexpr std::uint64_t kLargestChunk = 65'536, kLargestThatMayStop = 4'096;
 
 }  // namespace
 
-ChunkPlan planChunks(std::uint64_t walks) {
-    return {walks, std::clamp<std::uint64_t>(walks / kFewestChunks, 1, kLargestChunk)};
+ChunkPlan planChunks(std::uint64_t walks, bool may_stop) {
+    return {walks, std::clamp<std::uint64_t>(walks / kFewestChunks, 1, may_stop ? kLargestThatMayStop : kLargestChunk)};
 }
 
 bool isMilestone(std::uint64_t chunks) {

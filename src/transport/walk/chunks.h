@@ -28,8 +28,8 @@ struct ChunkPlan {
     std::uint64_t walksOf(std::uint64_t chunk) const { return std::min(size, walks - chunk * size); }
 };
 
-/// At least 64 chunks where there are as many walks, of at most 65,536 walks each.
-ChunkPlan planChunks(std::uint64_t walks);
+/// At least 64 chunks where there are as many walks, of at most 65,536 walks each, or 4,096 where they may stop early.
+ChunkPlan planChunks(std::uint64_t walks, bool may_stop = false);
 
 /// When a job that may stop early has enough: asked after 64 chunks, then four times in every doubling, so that the
 /// answer depends on the numbers alone.

@@ -1,5 +1,4 @@
-// Directions and reflection on float lanes: what every walk with a Henyey-Greenstein phase function and a smooth
-// surface does. Included once per instruction set.
+// Directions and reflection on float lanes: phase functions, and a smooth surface. Included once per instruction set.
 #if defined(SEARCHLIGHT_TRANSPORT_LANE_SCATTER_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef SEARCHLIGHT_TRANSPORT_LANE_SCATTER_INL_H_
 #undef SEARCHLIGHT_TRANSPORT_LANE_SCATTER_INL_H_
@@ -8,6 +7,7 @@
 #endif
 
 #include "transport/walk/lane_math-inl.h"
+#include "transport/walk/phase_function.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace searchlight {
@@ -44,16 +44,45 @@ HWY_INLINE Direction turned(const Direction& from, FloatV c, FloatV a, FloatV b)
     return {hn::Mul(nu, mend), hn::Mul(nv, mend), hn::Mul(nw, mend)};
 }
 
-/// [HenyeyGreenstein1941] by inversion, s uniform in [-1, 1]; half_qq = (1 - g)^2 / 2. m = 1 - cos is written without
-/// differences of near numbers, for g near 0 and near 1.
-HWY_INLINE Direction henyeyGreenstein(const Direction& from, FloatV g, FloatV half_qq, FloatV s, Azimuth phi) {
+/// Turns a direction by the angle whose 1 - cos is m.
+HWY_INLINE Direction turnedBy(const Direction& from, FloatV m, Azimuth phi) {
+    const Float d;
+    const FloatV sine = hn::Sqrt(hn::Mul(m, hn::Sub(hn::Set(d, 2.0f), m)));
+    return turned(from, hn::Sub(hn::Set(d, 1.0f), m), hn::Mul(sine, phi.cos), hn::Mul(sine, phi.sin));
+}
+
+/// 1 - cos of a scattering angle of [HenyeyGreenstein1941] by inversion, s uniform in [-1, 1]; half_qq = (1 - g)^2 / 2.
+/// Written without differences of near numbers, for g near 0 and near 1.
+HWY_INLINE FloatV henyeyGreensteinVersine(FloatV g, FloatV half_qq, FloatV s) {
     const Float d;
     const FloatV one = hn::Set(d, 1.0f), two = hn::Set(d, 2.0f);
     const FloatV p = hn::MulAdd(g, s, one);
     const FloatV numerator = hn::Mul(hn::Mul(half_qq, hn::Sub(one, s)), hn::Add(hn::Add(one, g), p));
-    const FloatV m = hn::Min(hn::Div(numerator, hn::Mul(p, p)), two);
-    const FloatV sine = hn::Sqrt(hn::Mul(m, hn::Sub(two, m)));
-    return turned(from, hn::Sub(one, m), hn::Mul(sine, phi.cos), hn::Mul(sine, phi.sin));
+    return hn::Min(hn::Div(numerator, hn::Mul(p, p)), two);
+}
+
+HWY_INLINE Direction henyeyGreenstein(const Direction& from, FloatV g, FloatV half_qq, FloatV s, Azimuth phi) {
+    return turnedBy(from, henyeyGreensteinVersine(g, half_qq, s), phi);
+}
+
+/// 1 - cos of a scattering angle from the bins [first, first + count) of the tables; count at least 1.
+HWY_INLINE FloatV tabulatedVersine(const PhaseTables& tables, IntV first, FloatV count, IntV bin_bits, IntV bits) {
+    const Float d;
+    const Int di;
+    const FloatV place = hn::Mul(uniform(bin_bits), count);
+    // The product may round up to count.
+    const IntV bin = hn::Min(hn::ConvertTo(di, place), hn::Sub(hn::ConvertTo(di, count), hn::Set(di, 1)));
+    const IntV drawn = hn::Add(first, bin);
+    const FloatM stays = hn::Lt(hn::Sub(place, hn::ConvertTo(d, bin)), hn::GatherIndex(d, tables.stay.data(), drawn));
+    const IntV at = hn::IfThenElse(hn::RebindMask(di, stays), drawn, hn::GatherIndex(di, tables.alias.data(), drawn));
+    // Inverse of the integral of a linear density that begins at a and ends at 2 - a.
+    const FloatV two = hn::Set(d, 2.0f), v = uniform(bits), a = hn::GatherIndex(d, tables.density.data(), at);
+    const FloatV twice = hn::Mul(two, v);
+    const FloatV root =
+        hn::Sqrt(hn::Max(hn::MulAdd(hn::Mul(twice, two), hn::Sub(hn::Set(d, 1.0f), a), hn::Mul(a, a)), hn::Zero(d)));
+    const FloatV part = hn::Div(twice, hn::Max(hn::Add(a, root), hn::Set(d, 1e-30f)));
+    const FloatV begin = hn::GatherIndex(d, tables.begin.data(), at);
+    return hn::Min(hn::MulAdd(part, hn::GatherIndex(d, tables.width.data(), at), begin), two);
 }
 
 struct Refraction {
