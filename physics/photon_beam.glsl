@@ -28,9 +28,9 @@ float betterDipole(vec4 dipole, float t, float z, float d) {
 //
 // With t = along + aside sinh(u) the steepest factors, 1 / d and t / d^3, are smooth. Panels of u are no longer than 2.7,
 // nor so long that exp(-t - sigma_tr d) falls by more than exp(-10) at the rate with which they begin, and end where that
-// exponent, whose second derivative is positive, has grown by 14; but before the point nearest to the exit, 1 / d^3 may
-// grow yet. The error is below 1e-4 from r = 0 to 30 (tested), most often 1e-6. Very far away betterDipole is linear in
-// t, and what is left of exp(-sigma_tr d) does not vary: the mean, t = 1, stands for all.
+// exponent, whose second derivative is positive, has grown by 14. The error is below 1e-4 for r from 0 to 30 and beams up
+// to 85 degrees from straight down (tested), most often 1e-6; at 89.5 degrees 5e-3. Very far away betterDipole is linear
+// in t, and what is left of exp(-sigma_tr d) does not vary: the mean, t = 1, stands for all.
 float photonBeam(vec4 dipole, bool near_field, float r, float along, float aside, float mu) {
     if (r > 1e4) return betterDipole(dipole, 1.0, mu, sqrt(r * r - 2.0 * along + 1.0));
     float e = along > 0.0 ? aside / (r + along) : (r - along) / aside;  // exp(u), at t = 0
@@ -59,8 +59,7 @@ float photonBeam(vec4 dipole, bool near_field, float r, float along, float aside
         d = 0.5 * aside * (e + 1.0 / e);
         float exponent = t + dipole.w * d;
         lowest = min(lowest, exponent);
-        float growth = t < along ? 3.0 * log(d / aside) : 0.0;
-        if (exponent > lowest + 14.0 + growth) break;
+        if (exponent > lowest + 14.0) break;
     }
     return sum;
 }
