@@ -84,8 +84,8 @@ double asModelled(const std::string& id, const Beam& beam, const Vec3& xo) {
 }
 
 const std::vector<double>& radii() {
-    static const std::vector<double> found = {1e-6, 1e-3, 0.01, 0.1, 0.3, 0.6, 1,  1.5, 2.2, 3,
-                                              3.5,  4.2,  5,    6,   8,   11,  15, 18,  23,  30};
+    static const std::vector<double> found = {1e-9, 1e-6, 1e-3, 0.01, 0.1, 0.3, 0.6, 1,  1.5, 2.2, 3,
+                                              3.5,  4.2,  5,    6,    8,   11,  15,  18, 23,  30};
     return found;
 }
 
