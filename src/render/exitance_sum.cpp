@@ -81,7 +81,10 @@ public:
             take({.opening = opening});
             const auto start = Clock::now();
             // A sum that was far off says little about where to look, and its reference may be off as well.
-            if (since_drawn < 0.5) memory_.audit.draw(input_, memory_.sums, opening, memory_.openings), since_drawn = 1;
+            if (since_drawn < 0.5) {
+                memory_.audit.draw(input_, memory_.sums, opening, memory_.openings);
+                since_drawn = 1;
+            }
             Rgb bounds;
             const SumCalibration judged = memory_.audit.judged(input_, memory_.sums, opening, bounds);
             found_.pilot_ms += millisecondsSince(start);
@@ -90,13 +93,15 @@ public:
                 calibration.next = attempt == 0 ? wider(opening, bounds, most) : opening;
                 return true;
             }
+            double least = 1;
             for (int c = 0; c < Rgb::channels; ++c) {
                 const double ratio = input_.error / std::max(bounds[c], 1e-30);
                 if (!matters(input_, c) || ratio > 1 / aim) continue;
                 const double factor = std::max(aim * ratio, 1.0 / 64);
                 opening[c] *= factor;
-                since_drawn = std::min(since_drawn, factor);
+                least = std::min(least, factor);
             }
+            since_drawn *= least;
         }
         return false;
     }
