@@ -22,7 +22,7 @@ struct Slab {
 
 LoadedModel multipole(const Medium& medium, const Slab& slab) { return load("multipole", medium, slab.parameters()); }
 
-// [DonnerJensen2005] Eqs. 8 to 11, with exact moments.
+// The sources of [DonnerJensen2005], with exact moments.
 struct Sources {
     Real d, strength, D, s, depth, zb, C_phi = 0, C_E = 1;
 
