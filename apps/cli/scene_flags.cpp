@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "base/error.h"
 #include "base/files.h"
@@ -151,6 +152,14 @@ void applyCamera(const Typed& typed, Camera& camera) {
     if (typed.has("target")) camera.target = vectorOf("target", typed.text("target"));
 }
 
+// As parseSettings() takes them: it puts the values of a list together again.
+std::vector<std::string> cutAtCommas(const std::vector<std::string>& given) {
+    std::vector<std::string> parts;
+    for (const std::string& text : given)
+        for (const std::string_view part : split(text, ',')) parts.emplace_back(part);
+    return parts;
+}
+
 void setAll(const ParamValues& given, ParamValues& parameters) {
     for (const auto& [name, value] : given) {
         const Rgb* color = std::get_if<Rgb>(&value);  // in a scene, a list like any other
@@ -167,7 +176,7 @@ void applyModel(const Typed& typed, SceneModel& model) {
         model.id = parts.front();
         for (std::size_t i = 1; i < parts.size(); ++i) settings.emplace_back(parts[i]);
     }
-    if (typed.has("set")) settings.push_back(join(typed.all("set"), ","));
+    if (typed.has("set")) std::ranges::move(cutAtCommas(typed.all("set")), std::back_inserter(settings));
     if (settings.empty()) return;
     const Model loaded = loadModel(model.id);
     setAll(parseSettings(loaded, settings), model.parameters);
@@ -188,7 +197,7 @@ void applyCoat(const Typed& typed, std::optional<Coat>& coat) {
     if (!coat || coat->brdf.empty())
         throw usageError("--brdf-set is for a coat from a .brdf file", "such as --coat paint.brdf");
     const BrdfFile file = parseBrdf(readFile(coat->brdf), coat->brdf);
-    setAll(parseSettings(file.parameters, file.path, typed.all("brdf_set")), coat->parameters);
+    setAll(parseSettings(file.parameters, file.path, cutAtCommas(typed.all("brdf_set"))), coat->parameters);
 }
 
 }  // namespace

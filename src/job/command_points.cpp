@@ -58,10 +58,12 @@ JobResult runPoints(const Job& job, Engine&, Observer& observer) {
                           {"cached", points.hit},
                           {"seconds", seconds},
                           {"unit", in_mm ? "mm" : "the mesh's own"}};
-    std::string text = fmt::format("{} points, {} {} apart, areas sum to {} {}² and scatter by {} %; {} in {:.2f} s\n",
-                                   wanted.count, prettyNumber(std::sqrt(mean)), in_mm ? "mm" : "of the mesh's units",
-                                   prettyNumber(sum, 6), in_mm ? "mm" : "of the mesh's units",
+    const char* const length = in_mm ? " mm" : "";
+    const char* const squared = in_mm ? " mm²" : "";
+    std::string text = fmt::format("{} points, {}{} apart, areas sum to {}{} and scatter by {} %; {} in {:.2f} s\n",
+                                   wanted.count, prettyNumber(std::sqrt(mean)), length, prettyNumber(sum, 6), squared,
                                    prettyNumber(100 * scatter, 2), points.hit ? "read" : "made", seconds);
+    if (!in_mm) text += "Lengths are in the mesh's own unit; --scale makes them mm.\n";
     return {.text = std::move(text), .json = document.dump(1)};
 }
 

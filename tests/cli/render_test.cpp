@@ -1,5 +1,6 @@
 #include <nlohmann/json.hpp>
 
+#include "base/files.h"
 #include "io/image_file.h"
 #include "program.h"
 
@@ -9,6 +10,21 @@ namespace {
 using nlohmann::json;
 
 const std::string quick = "--size 48x32 --points 2000 --cache none ";
+
+TEST_F(Program, SeveralParametersAreSetAtOnce) {
+    writeFile(folder() / "a.brdf",
+              "analytic\n::begin parameters\nfloat gloss 1 9 5\ncolor tint 1 .5 0\n::end parameters\n::begin shader\n"
+              "vec3 BRDF(vec3 L, vec3 V, vec3 N, vec3 X, vec3 Y) { return tint * gloss; }\n::end shader\n");
+    const Output output =
+        run("render sphere --model directional_dipole --set Moments=exact,ClampNegative=0 --coat a.brdf "
+            "--brdf-set gloss=2,tint=0,0,1 --print-job");
+    ASSERT_EQ(output.exit_code, 0) << output.err;
+    const json scene = json::parse(output.out).at("scene");
+    EXPECT_EQ(scene.at("model").at("parameters"), json::parse(R"({"Moments": "exact", "ClampNegative": false})"));
+    EXPECT_EQ(scene.at("coat").at("parameters"), json::parse(R"({"gloss": 2.0, "tint": [0.0, 0.0, 1.0]})"));
+    EXPECT_EQ(run("render sphere --coat 0.2 --brdf-set gloss=2 --print-job").exit_code, 2);
+    EXPECT_EQ(run("render sphere --coat a.brdf --brdf-set glos=2 --print-job").exit_code, 2);
+}
 
 TEST_F(Program, RendersAPictureThatSaysHowItWasMade) {
     const Output output =
