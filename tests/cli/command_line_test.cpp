@@ -44,7 +44,7 @@ TEST_F(Program, HelpShowsEveryCommandsExampleAndSucceeds) {
 
 TEST_F(Program, ListsModelsAndMaterialsAsJson) {
     const json models = json::parse(run("models --json").out).at("models");
-    EXPECT_EQ(models.size(), 5u);
+    EXPECT_EQ(models.size(), 7u);
     for (const json& model : models) {
         EXPECT_FALSE(model.at("id").get<std::string>().empty());
         EXPECT_FALSE(model.at("title").get<std::string>().empty());
