@@ -14,6 +14,15 @@ float fresnelReflectance(float mu, float eta) {
     return 0.5 * (r_s * r_s + r_p * r_p);
 }
 
+// 1 - fresnelReflectance, from the cosines on both sides, without the rounding of small ones.
+float fresnelTransmittance(float mu, float mu_t, float eta) {
+    float product = mu * mu_t;
+    if (product <= 0.0) return 0.0;
+    float s = eta * mu + mu_t;
+    float p = mu + eta * mu_t;
+    return 2.0 * eta * product * (1.0 / (s * s) + 1.0 / (p * p));
+}
+
 // Gauss-Legendre with 16 points on [-1, 1]: the positive half.
 const float gauss_node[8] = float[8](0.0950125098376374402, 0.281603550779258913, 0.458016777657227386,
                                      0.617876244402643748, 0.755404408355003034, 0.865631202387831744,

@@ -1,12 +1,18 @@
 // Light that is scattered once: the integral over where on its way that happens.
 
-// Gauss-Legendre with 24 points x on [0, 1] under x^3 (4 - 3 x): place and weight. Flat at both ends, more so at 0.
+// Gauss-Legendre with 24 points x on [0, 1] under x^3 (4 - 3 x): place, 1 - place and weight. Flat at both ends,
+// more so at 0.
 const float scatter_place[24] = float[24](5.56382568460803e-08, 7.993276491127748e-06, 0.0001148661200910683,
     0.0007014924008923981, 0.002719082169239308, 0.007920218908961779, 0.01891422732206022, 0.03896103224780433,
     0.07148917054791508, 0.1194075435252017, 0.1843533208863986, 0.2660586164260204, 0.3620125338593562,
     0.4675411779414309, 0.5763372723694448, 0.6813644933497135, 0.7759660002655515, 0.8549468134675912,
     0.9153924781930727, 0.9570360580719639, 0.9820820448483837, 0.9945174076574295, 0.9990580942033953,
     0.999965367100075);
+const float scatter_rest[24] = float[24](0.999999944361743, 0.999992006723509, 0.999885133879909, 0.9992985075991075,
+    0.9972809178307607, 0.9920797810910383, 0.9810857726779398, 0.9610389677521958, 0.9285108294520849,
+    0.8805924564747983, 0.8156466791136016, 0.7339413835739794, 0.6379874661406438, 0.5324588220585691,
+    0.4236627276305552, 0.3186355066502864, 0.2240339997344486, 0.1450531865324089, 0.08460752180692745,
+    0.04296394192803603, 0.01791795515161612, 0.00548259234257081, 0.0009419057966048047, 3.463289992484961e-05);
 const float scatter_weight[24] = float[24](4.277552781234855e-07, 2.698681899972223e-05, 0.0002452378783582875,
     0.001082382819429432, 0.003243753447456339, 0.007596803787009593, 0.01494273721818925, 0.02573411885099288,
     0.03981996362335382, 0.05630063983837747, 0.07355220709542513, 0.08943864966067473, 0.1016811929422055,
@@ -26,7 +32,8 @@ const float scatter_weight[24] = float[24](4.277552781234855e-07, 2.698681899972
 // s is replaced by the angle between the way back along `line` and the way to x, seen from the point of scattering
 // (equiangular, [KullaFajardo2012]): ds / d^2 = dangle / h, h being the distance from x to the line. With u = tan of
 // half the angle everything is rational; with m = u / (1 + u) the range is finite. The rule for m has 24 points, and
-// errs by less than 1e-5 for h from 1e-3 to 30 mean free paths and g from -0.6 to 0.99.
+// errs by less than 1e-5 for h from 1e-3 to 30 mean free paths and g from -0.6 to 0.99. Far away only the neighbourhood
+// of the end counts: way and cosine are written as differences from there, as float needs.
 //
 // The value grows as 1 / h. h is taken for 1e-6 mean free paths of the densest channel where it is less: at the point
 // of entry it is finite, and its integral over the surface loses no more than 1e-6.
@@ -49,28 +56,40 @@ vec3 scatteredOnce(vec3 x, vec3 line, float stretch, vec3 travel, vec3 no, vec3 
     float critical = eta > 1.0 ? sqrt(1.0 - 1.0 / (eta * eta)) : 0.0;
     float discriminant = back * back + up * up - critical * critical;
     if (discriminant <= 0.0) return vec3(0.0);
-    float q = up + sqrt(discriminant);
+    float root = sqrt(discriminant);
+    float q = up < 0.0 ? (back - critical) * (back + critical) / (root - up) : up + root;  // up + root
     if (q <= 0.0) return vec3(0.0);
     float least = max(0.0, (critical - back) / q);
     float r = length(vec2(along, h));
     float most = along > 0.0 ? (r + along) / h : h / (r - along);  // s = 0
-    if (back + critical > 0.0) most = min(most, q / (back + critical));
+    // On a plane without total reflection both ends are the same, and mu is exactly 0 there.
+    bool by_angle = back + critical > 0.0 && q <= 1.000001 * most * (back + critical);
+    if (by_angle) most = q / (back + critical);
     if (most <= least) return vec3(0.0);
 
     float from = least / (1.0 + least);
-    float range = most / (1.0 + most) - from;
+    float end = most / (1.0 + most);
+    float range = end - from;
+    float way_end = stretch * along + 0.5 * h * ((stretch + 1.0) / most + (1.0 - stretch) * most);
+    float sum_of_cosines = back + critical;
+    float excess_end = by_angle ? 0.0 : back - critical + most * (2.0 * up - most * sum_of_cosines);
+    float grazing = max(0.0, 1.0 - eta * eta);  // squared cosine outside where mu is 0
     float ahead = dot(travel, line);
     float sideways = dot(travel, aside);
     vec3 one_plus_g2 = 1.0 + g * g;
     vec3 sum = vec3(0.0);
     for (int i = 0; i < 24; i++) {
         float m = from + range * scatter_place[i];
+        float gap = range * scatter_rest[i];  // end - m
         float u = m / (1.0 - m);
+        float short_of = gap * (1.0 + u) * (1.0 + most);  // most - u
         float norm = 1.0 / (1.0 + u * u);
-        float mu = max(0.0, (back * (1.0 - u * u) + 2.0 * up * u) * norm);
+        float excess = max(0.0, (excess_end + short_of * (sum_of_cosines * (u + most) - 2.0 * up)) * norm);
+        float mu = critical + excess;
+        float mu_t = sqrt(grazing + eta * eta * excess * (mu + critical));
         float cosine = (2.0 * sideways * u - ahead * (1.0 - u * u)) * norm;
-        float way = stretch * along + 0.5 * h * (stretch + 1.0 + (1.0 - stretch) * u * u) / u;
-        float transmitted = (1.0 - fresnelReflectance(mu, eta)) * mu;
+        float way = way_end + 0.5 * h * ((stretch + 1.0) * gap / (m * end) - (1.0 - stretch) * short_of);
+        float transmitted = fresnelTransmittance(mu, mu_t, eta) * mu;
         vec3 d = one_plus_g2 - 2.0 * cosine * g;
         sum += scatter_weight[i] * transmitted * norm / ((1.0 - m) * (1.0 - m)) * exp(-way * sigma_t) / (d * sqrt(d));
     }

@@ -47,7 +47,8 @@ private:
     std::unique_ptr<gl::Context> context_;
 };
 
-/// "Moments=exact" pairs as values of the model's parameters, in a sum also "part.Moments=exact". Throws a usage Error with the nearest names.
+/// "Moments=exact" pairs as values of the model's parameters, in a sum also "part.Moments=exact". Throws a usage Error
+/// with the nearest names.
 ParamValues parseSettings(const Model& model, const std::vector<std::string>& settings);
 
 /// The same for parameters of anything; `what` calls it in messages: "paint.brdf".

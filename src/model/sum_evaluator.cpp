@@ -2,7 +2,6 @@
 #include <cassert>
 #include <vector>
 
-#include "base/error.h"
 #include "base/text.h"
 #include "model/evaluator.h"
 #include "model/sum_model.h"

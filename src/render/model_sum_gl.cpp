@@ -53,10 +53,12 @@ ModelSumGl::ModelSumGl(gl::Context& context)
       receiver_data_(context) {}
 
 ModelSumGl::Part::Part(gl::Context& context, const BssrdfFile& file_, const LoopBudget& budget)
-    : file(file_), evaluate(context, evaluateSource(file, budget)), state(context, 4) {
-    if (!file.initializer.present()) return;
-    init.emplace(context, modelShader(file, GlStage::init, budget));
-    state.reserve(std::max(init->blockSize("sl_State"), evaluate.blockSize("sl_State")));
+    : file(file_),
+      init(file.initializer.present() ? std::make_unique<gl::Program>(context, modelShader(file, GlStage::init, budget))
+                                      : nullptr),
+      evaluate(context, evaluateSource(file, budget)),
+      state(context, 4) {
+    if (init) state.reserve(std::max(init->blockSize("sl_State"), evaluate.blockSize("sl_State")));
 }
 
 bool ModelSumGl::knows(std::span<const Model> parts) const {

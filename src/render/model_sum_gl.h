@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -52,7 +51,7 @@ private:
     // A model, or one of those that are added.
     struct Part {
         BssrdfFile file;
-        std::optional<gl::Program> init;
+        std::unique_ptr<gl::Program> init;  // null: it has no State
         gl::Program evaluate;
         gl::Buffer state;
         Part(gl::Context& context, const BssrdfFile& file, const LoopBudget& budget);

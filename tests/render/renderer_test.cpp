@@ -54,6 +54,33 @@ protected:
     fs::path folder_;
 };
 
+// As a radial model that has the same profile, and the report says so.
+TEST_F(RendererTest, TakesAModelThatReadsDirectionsUnderANormalBeamWhereAsked) {
+    Scene scene = sphereScene();
+    scene.model.id = "better_dipole+single";
+    Renderer renderer(shippedMaterials());
+    renderer.setScene(scene);
+    RenderSettings settings = small();
+    renderer.setSettings(settings);
+    const Image directional = renderer.render(observer_);
+    EXPECT_TRUE(renderer.report().notes.empty());
+    settings.technique_options = {{"normal_beam", true}};
+    renderer.setSettings(settings);
+    const Image radial = renderer.render(observer_);
+    ASSERT_FALSE(renderer.report().notes.empty());
+    EXPECT_EQ(renderer.report().notes.front(), "At every angle the model stands with its profile under a normal beam.");
+    EXPECT_NE(directional.pixels, radial.pixels);
+    settings.technique = "brute_force";
+    renderer.setSettings(settings);
+    const Image exact = renderer.render(observer_);
+    double error = 0, sum = 0;
+    for (std::size_t i = 0; i < exact.pixels.size(); ++i) {
+        error += std::pow(exact.pixels[i].g - radial.pixels[i].g, 2);
+        sum += std::pow(exact.pixels[i].g, 2);
+    }
+    EXPECT_LT(std::sqrt(error / sum), 0.005);  // the default of the option "error"
+}
+
 TEST_F(RendererTest, UniformLightOnASphereGivesItsProfilesIntegral) {
     // On a sphere the area within the chord r is pi r^2, as on the plane, so the sum over the surface is the integral
     // of the profile up to the diameter. Half a unit of radiance all around: E = pi/2, of which the hemispherical mean
