@@ -58,7 +58,7 @@ using Reflectance = std::function<Rgb(Rgb s)>;
 
 Reflectance reflectanceOf(Evaluator& evaluator, const Model& model, const ParamValues& parameters,
                           const InversionTarget& target) {
-    if (!model.measured && model.file.diffuse_reflectance.present()) {
+    if (hasDiffuseReflectance(model)) {
         evaluator.set(mediumOf(Rgb{0.5, 0.5, 0.5}, {1, 1, 1}, target), parameters);
         return [&evaluator](Rgb s) { return evaluator.diffuseReflectance({alphaOf(s.r), alphaOf(s.g), alphaOf(s.b)}); };
     }
@@ -138,7 +138,7 @@ Inversion invert(Evaluator& evaluator, const Model& model, const ParamValues& pa
     result.achieved = reflectance(s);
     reached.resize(static_cast<std::size_t>(target.channels));
     result.reached = std::move(reached);
-    result.from_profile = model.measured || !model.file.diffuse_reflectance.present();
+    result.from_profile = !hasDiffuseReflectance(model);
     result.mean_free_path = model.file.grosjean ? "grosjean" : "classical";
     return result;
 }

@@ -27,11 +27,10 @@ std::string named(const std::string& what, const FitPicture& channel) {
 }  // namespace
 
 Figure fitFigure(std::span<const FitPicture> channels, const std::string& title, const std::string& model) {
-    Figure figure;
-    figure.title = title;
-    figure.y = {"Diffuse reflectance", "1/mm²", AxisScale::logarithmic};
-    Figure panel;
-    panel.y = {"(fit − data) / data", "%", AxisScale::linear};
+    Figure curves;
+    curves.y = {"Diffuse reflectance", "1/mm²", AxisScale::logarithmic};
+    Figure residual;
+    residual.y = {"(fit − data) / data", "%", AxisScale::linear};
     std::vector<double> sizes;
     double top = 0, bottom = std::numeric_limits<double>::infinity(), right = 0;
     bool errors = false;
@@ -62,12 +61,12 @@ Figure fitFigure(std::span<const FitPicture> channels, const std::string& title,
             data.upper.push_back(channel.value[i] + 2 * errorOf(channel, i));
         }
         if (channel.standard_error.empty()) band.lower = band.upper = {};
-        figure.series.push_back(std::move(data));
-        figure.series.push_back(
+        curves.series.push_back(std::move(data));
+        curves.series.push_back(
             {.label = named(model, channel), .x = channel.curve_mm, .y = channel.curve, .color = channel.color});
-        panel.series.push_back(std::move(band));
+        residual.series.push_back(std::move(band));
         left.in_legend = false;
-        panel.series.push_back(std::move(left));
+        residual.series.push_back(std::move(left));
     }
     // Nine tenths of the differences decide the view.
     double view = 1;
@@ -76,15 +75,16 @@ Figure fitFigure(std::span<const FitPicture> channels, const std::string& title,
         std::nth_element(sizes.begin(), rank, sizes.end());
         view = std::clamp(1.5 * *rank, 1e-9, 100.0);
     }
-    panel.y.min = -view;
-    panel.y.max = view;
-    figure.y.max = 2 * top;
-    figure.y.min = bottom / 2;
-    figure.x = {"", "", AxisScale::square_root, 0, right};
-    panel.x = {"Radius", "mm", AxisScale::square_root, 0, right};
-    panel.caption = "Per unit flux that has entered the medium.";
-    if (errors) panel.caption += " Bars and band: ±2 standard errors of the data.";
-    figure.below.push_back(std::move(panel));
+    residual.y.min = -view;
+    residual.y.max = view;
+    curves.y.max = 2 * top;
+    curves.y.min = bottom / 2;
+    curves.x = residual.x = {"Radius", "mm", AxisScale::square_root, 0, right};
+    Figure figure;
+    figure.title = title;
+    figure.caption = "Per unit flux that has entered the medium.";
+    if (errors) figure.caption += " Bars and band: ±2 standard errors of the data.";
+    figure.panels = {std::move(curves), std::move(residual)};
     return figure;
 }
 
