@@ -144,6 +144,10 @@ Result fitModel(const Options& options, const ProfileData& data, FitWeight weigh
         if (fitted.free.empty())
             throw usageError(fmt::format("{} has nothing that could be fitted", loaded.model.id),
                              "a model that reads the medium, or has parameters that are numbers");
+        for (const char* name : {"sigma_a", "sigma_sp"})
+            if (readsMedium(loaded.model) && std::ranges::find(fitted.free, name) == fitted.free.end())
+                throw usageError(fmt::format("{} reads the medium, so {} has to be free", loaded.model.id, name),
+                                 "such as --free sigma_a,sigma_sp, and a parameter of the model if wanted");
         result.title = loaded.model.file.title;
     }
     FitOptions fit_options;

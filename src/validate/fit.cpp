@@ -44,13 +44,19 @@ double fluxPerOctave(const FitData& data, std::size_t i) { return data.value[i] 
 class Problem {
 public:
     Problem(const FitCurve& curve, const FitData& data, std::vector<double> weights, Observer& observer)
-        : curve_(curve), data_(data), weights_(std::move(weights)), observer_(observer) {}
+        : curve_(curve), data_(data), weights_(std::move(weights)), observer_(observer) {
+        for (const FitParameter& parameter : curve.parameters) {
+            lower.push_back(std::log(parameter.lower));
+            upper.push_back(std::log(parameter.upper));
+        }
+    }
 
     std::vector<double> values(std::span<const double> x) {
         if (observer_.cancelled()) throw interruptedError();
         ++evaluations;
         std::vector<double> parameters;
-        for (const double log : x) parameters.push_back(std::exp(log));
+        for (std::size_t j = 0; j < x.size(); ++j)
+            parameters.push_back(std::clamp(std::exp(x[j]), curve_.parameters[j].lower, curve_.parameters[j].upper));
         return curve_.values(parameters);
     }
 
@@ -60,18 +66,19 @@ public:
         return r;
     }
 
-    // By central differences: 1e-5 balances their error, 1e-10, with rounding.
+    // By central differences: 1e-5 balances their error, 1e-10, with rounding. At the end of a range, one-sided.
     Matrix jacobian(std::span<const double> x) {
         constexpr double h = 1e-5;
         Matrix J(data_.value.size(), x.size());
         std::vector<double> moved(x.begin(), x.end());
         for (std::size_t j = 0; j < x.size(); ++j) {
-            moved[j] = x[j] + h;
+            const double right = std::min(x[j] + h, upper[j]), left = std::max(x[j] - h, lower[j]);
+            moved[j] = right;
             const std::vector<double> above = residuals(moved);
-            moved[j] = x[j] - h;
+            moved[j] = left;
             const std::vector<double> below = residuals(moved);
             moved[j] = x[j];
-            for (std::size_t i = 0; i < above.size(); ++i) J(i, j) = (above[i] - below[i]) / (2 * h);
+            for (std::size_t i = 0; i < above.size(); ++i) J(i, j) = (above[i] - below[i]) / (right - left);
         }
         return J;
     }
@@ -89,7 +96,7 @@ public:
     }
 
     // Steps of Gauss and Newton as long as they lower the cost: quadratic where the residuals are small.
-    void polish(std::vector<double>& x, const std::vector<double>& lower, const std::vector<double>& upper) {
+    void polish(std::vector<double>& x) {
         double best = cost(x, {});
         for (int step = 0; step < 30; ++step) {
             const std::vector<double> d = leastSquares(jacobian(x), residuals(x));
@@ -109,6 +116,7 @@ public:
     }
 
     int evaluations = 0;
+    std::vector<double> lower, upper;  // of the logarithms
 
     static double squares(const std::vector<double>& r) {
         const double sum = std::inner_product(r.begin(), r.end(), r.begin(), 0.0);
@@ -210,11 +218,6 @@ Fit fitCurve(const FitCurve& curve, const FitData& data, const FitOptions& optio
     if (usable < curve.parameters.size() + 1)
         throw inputError(fmt::format("{} data cannot determine {} parameters", usable, curve.parameters.size()),
                          "values must be positive, and their errors too where they have any");
-    std::vector<double> lower, upper;
-    for (const FitParameter& parameter : curve.parameters) {
-        lower.push_back(std::log(parameter.lower));
-        upper.push_back(std::log(parameter.upper));
-    }
     Problem problem(curve, data, weights, observer);
 
     struct Start {
@@ -240,8 +243,8 @@ Fit fitCurve(const FitCurve& curve, const FitData& data, const FitOptions& optio
             for (double& slope : gradient) slope *= scale;
             return scale * cost;
         };
-        Minimum found = minimise(objective, starts[i].x, lower, upper, 300);
-        problem.polish(found.x, lower, upper);
+        Minimum found = minimise(objective, starts[i].x, problem.lower, problem.upper, 300);
+        problem.polish(found.x);
         const double cost = problem.cost(found.x, {});
         if (cost < best.cost) best = {std::move(found.x), cost};
     }

@@ -60,6 +60,10 @@ TEST_F(Program, FitsWhatProfileAndReferenceWrite) {
     EXPECT_NEAR(json::parse(burley.out).at("parameters").at(0).at("value").at(0).get<double>(), 0.4397, 0.014);
     EXPECT_THAT(readFile(folder() / "fit.svg"), testing::HasSubstr("Per unit flux that has entered"));
     EXPECT_EQ(run("fit --profile reference.json --model dipole --order multiple").exit_code, 0);
+    EXPECT_EQ(
+        run("fit --profile reference.json --model dipole --free sigma_a").err,
+        "searchlight: dipole reads the medium, so sigma_sp has to be free (such as --free sigma_a,sigma_sp, and a "
+        "parameter of the model if wanted)\n");
 }
 
 TEST_F(Program, RefusesDocumentsThatAreNoProfile) {

@@ -207,6 +207,51 @@ TEST(FitGaussians, SayWhenFewerWouldDo) {
     EXPECT_NEAR(total, 0.7, 1e-6);
 }
 
+// Narrow annuli know as much as points at their middles: so the derivatives of both are right.
+TEST(FitGaussians, OfAnnuliHaveTheErrorsOfPoints) {
+    FitData at_points, over_annuli;
+    over_annuli.edges_mm.push_back(0.1);
+    for (int i = 0; i < 100; ++i) {
+        const double r = 0.1 + 0.04 * (i + 0.5);
+        over_annuli.edges_mm.push_back(0.1 + 0.04 * (i + 1));
+        for (FitData* data : {&at_points, &over_annuli}) data->radii_mm.push_back(r);
+    }
+    const double noise = 0.01;
+    for (std::size_t i = 0; i < 100; ++i)
+        for (FitData* data : {&at_points, &over_annuli}) {
+            const double value = 0.4 * gaussianValue(*data, i, 0.05) + 0.3 * gaussianValue(*data, i, 1.5);
+            data->value.push_back(value * (1 + (i % 2 ? noise : -noise)));
+            data->standard_error.push_back(noise * value);
+        }
+    const GaussianFitOptions options{.count = 2, .weight = FitWeight::standard_error};
+    const GaussianFit a = fitGaussians(std::span(&at_points, 1), options, silent);
+    const GaussianFit b = fitGaussians(std::span(&over_annuli, 1), options, silent);
+    for (std::size_t k = 0; k < 2; ++k) {
+        EXPECT_NEAR(b.variance_mm2[k] / a.variance_mm2[k], 1, 0.01);
+        EXPECT_NEAR(b.variance_error[k] / a.variance_error[k], 1, 0.05);
+        EXPECT_NEAR(b.weight_error[0][k] / a.weight_error[0][k], 1, 0.05);
+        EXPECT_NEAR(a.variance_mm2[k] / (k == 0 ? 0.05 : 1.5), 1, 0.02);
+    }
+}
+
+TEST(Fit, StaysWithinTheRangesOfParameters) {
+    FitData data{.radii_mm = logarithmic(0.1, 5, 20)};
+    for (const double r : data.radii_mm) data.value.push_back(std::exp(-r / 3));
+    FitCurve curve;
+    curve.parameters = {{"Reach", "mm", 0.1, 2}};
+    curve.starts = {{1}, {2}};
+    curve.values = [&data](std::span<const double> parameters) {
+        EXPECT_GE(parameters[0], 0.1);
+        EXPECT_LE(parameters[0], 2);
+        std::vector<double> values;
+        for (const double r : data.radii_mm) values.push_back(std::exp(-r / parameters[0]));
+        return values;
+    };
+    const Fit fit = fitCurve(curve, data, {}, silent);
+    EXPECT_NEAR(fit.value[0], 2, 1e-9);
+    EXPECT_THAT(fit.warnings, testing::Contains("Reach is at the end of its range"));
+}
+
 TEST(FitGaussians, KeepTheTotalAskedFor) {
     const FitData data = ofOneGaussian();
     const GaussianFit fit =
