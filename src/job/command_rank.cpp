@@ -55,7 +55,7 @@ JobResult runRank(const Job& job, Engine& engine, Observer& observer) {
     if (!job.output.empty() && !job.output.ends_with(".html"))
         throw usageError(fmt::format("'{}' is no page", job.output), "-o takes a file that ends in .html");
     const RankEffort effort = effortOf(job, options);
-    std::vector<RankEntry> entries = rankEntries(options.names("models"), options.text("backend"), engine, observer);
+    std::vector<RankEntry> entries = rankEntries(options.names("models"), options.text("backend"), engine);
     const std::vector<Subject> subjects = subjectsOf(job, engine, observer);
     const bool all = job.scene.material.id == every_material;
 
@@ -89,6 +89,15 @@ JobResult runRank(const Job& job, Engine& engine, Observer& observer) {
         document.update(rankingJson(rankings.front(), entries));
         result.text = rankingText(rankings.front(), entries);
         if (!job.output.empty()) report = rankingReport(rankings.front(), entries);
+    }
+    if (options.text("models") == "all") {
+        document["left_out"] = Json::array();
+        for (const Model& model : shippedModels()) {
+            const std::string reason = whyNotRanked(model);
+            if (reason.empty()) continue;
+            document["left_out"].push_back({{"id", model.id}, {"why", reason}});
+            result.text += fmt::format("{} is left out: {}.\n", model.id, reason);
+        }
     }
     if (!job.output.empty() && !result.interrupted) {
         report.metadata = {{"program", fmt::format("Searchlight {}", version())}, {"job", jobJson(job)}};

@@ -63,17 +63,12 @@ std::string Ranking::sentence(const RankedModel& model) const {
     return channels.size() > 1 ? fmt::format("in {} {}", channelName(subject.medium, channels[worst]), text) : text;
 }
 
-std::vector<RankEntry> rankEntries(const std::vector<std::string>& names, std::string_view backend, Engine& engine,
-                                   Observer& observer) {
+std::vector<RankEntry> rankEntries(const std::vector<std::string>& names, std::string_view backend, Engine& engine) {
     std::vector<std::string> all = names;
     if (all == std::vector<std::string>{"all"}) {
         all.clear();
         for (const Model& model : shippedModels()) {
-            const std::string reason = whyNotRanked(model);
-            if (!reason.empty()) {
-                observer.log(LogLevel::info, fmt::format("{} is left out: {}", model.id, reason));
-                continue;
-            }
+            if (!whyNotRanked(model).empty()) continue;
             all.push_back(model.id);
             if (canTakeSingle(model)) all.push_back(model.id + "+" + std::string(single_id));
         }

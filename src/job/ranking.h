@@ -39,8 +39,7 @@ std::string whyNotRanked(const Model& model);
 
 /// "all": every shipped model that takes part, and where a model leaves single scattering out and one of single
 /// scattering ships, their sum as well. Throws a usage Error when none is named.
-std::vector<RankEntry> rankEntries(const std::vector<std::string>& names, std::string_view backend, Engine& engine,
-                                   Observer& observer);
+std::vector<RankEntry> rankEntries(const std::vector<std::string>& names, std::string_view backend, Engine& engine);
 
 /// Throws an input Error when no channel scatters, interruptedError() when the observer cancels.
 Ranking rankOn(const Subject& subject, std::vector<RankEntry>& entries, const RankEffort& effort, Observer& observer);
