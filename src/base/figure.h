@@ -16,6 +16,8 @@ struct Axis {
     AxisScale scale = AxisScale::linear;
     /// Shown range; equal ends: from the data.
     double min = 0, max = 0;
+    /// Of things instead of numbers: the one at 0, at 1, ...; they are the only ticks. Linear.
+    std::vector<std::string> names = {};
 };
 
 enum class SeriesStyle {

@@ -45,10 +45,11 @@ dd { margin: 0; overflow-wrap: anywhere; }
 @media print { main { padding: 0; max-width: none; } figure, table { break-inside: avoid; } }
 )";
 
-// "0.31", "-4.5 %", "1.2e-3 ± 4e-5", or a dash: what reads better aligned at its right.
+// "0.31", "-4.5 %", "1.2e-3 ± 4e-5", ">1000 %", or a dash: what reads better aligned at its right.
 bool looksNumeric(std::string_view cell) {
     cell = trim(cell);
     if (cell.empty() || cell == "-" || cell == "–" || cell == "—" || cell == "n/a") return true;
+    if (cell.front() == '>' || cell.front() == '<') cell.remove_prefix(1);
     const std::string_view first = cell.substr(0, cell.find_first_of(" %"));
     return parseNumber(first).has_value();
 }

@@ -165,4 +165,11 @@ AxisTicks axisTicks(AxisScale scale, double min, double max, int target) {
     return linearTicks(min, max, target);
 }
 
+AxisTicks namedTicks(const std::vector<std::string>& names) {
+    AxisTicks axis;
+    for (const std::string& name : names)
+        axis.ticks.push_back({.value = static_cast<double>(axis.ticks.size()), .major = true, .label = name});
+    return axis;
+}
+
 }  // namespace searchlight

@@ -23,4 +23,7 @@ struct AxisTicks {
 /// Marks for [min, max] with about `target` labels. min < max, finite; both positive for a logarithmic axis.
 AxisTicks axisTicks(AxisScale scale, double min, double max, int target);
 
+/// One mark for each name, at 0, 1, 2...
+AxisTicks namedTicks(const std::vector<std::string>& names);
+
 }  // namespace searchlight

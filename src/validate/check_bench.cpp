@@ -29,6 +29,13 @@ Vec3 circlePoint(double r, double turn) {
     return {r * std::cos(angle), r * std::sin(angle), 0};
 }
 
+}  // namespace
+
+Finding passed(std::string detail) { return {CheckResult::Outcome::passed, std::move(detail)}; }
+Finding failed(std::string detail) { return {CheckResult::Outcome::failed, std::move(detail)}; }
+Finding reported(std::string detail) { return {CheckResult::Outcome::reported, std::move(detail)}; }
+Finding skipped(std::string detail) { return {CheckResult::Outcome::skipped, std::move(detail)}; }
+
 Medium mediumOf(const Rgb& alpha_prime, double g, double eta) {
     Medium medium;
     medium.eta = eta;
@@ -39,13 +46,6 @@ Medium mediumOf(const Rgb& alpha_prime, double g, double eta) {
     }
     return medium;
 }
-
-}  // namespace
-
-Finding passed(std::string detail) { return {CheckResult::Outcome::passed, std::move(detail)}; }
-Finding failed(std::string detail) { return {CheckResult::Outcome::failed, std::move(detail)}; }
-Finding reported(std::string detail) { return {CheckResult::Outcome::reported, std::move(detail)}; }
-Finding skipped(std::string detail) { return {CheckResult::Outcome::skipped, std::move(detail)}; }
 
 const std::vector<Medium>& checkMedia() {
     static const std::vector<Medium> media = [] {

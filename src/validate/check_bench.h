@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,9 @@ Finding skipped(std::string detail);
 /// Media of reduced extinction 1/mm, so that a mm is a mean free path: every pair of three refractive indices and two
 /// g, with reduced albedos from 0.1 to 0.999 over the channels.
 const std::vector<Medium>& checkMedia();
+
+/// Reduced extinction 1/mm, with a reduced albedo per channel.
+Medium mediumOf(const Rgb& alpha_prime, double g, double eta);
 
 /// "alpha' 0.9, IOR 1.3, g 0.8"
 std::string mediumText(const Medium& medium, int channel);
@@ -100,6 +104,33 @@ private:
     std::unique_ptr<Evaluator> native_, gl_;
     std::string no_gl_;
 };
+
+// What checks measure, over the media given.
+
+/// The integral of R_d over the plane.
+struct Total {
+    Rgb value;
+    double accuracy;  ///< relative
+};
+Total totalOf(CheckBench& bench, const Medium& medium, double angle_deg);
+
+/// Angles of incidence at which a total is looked at: one for a model that does not read the direction.
+std::vector<double> energyAngles(const CheckBench& bench);
+
+struct LeastValue {
+    double value = 0;  ///< 1/mm^2
+    /// Of r^2 R_d, which is what a logarithmic step of the radius gives, in its largest value; below 0 if negative.
+    double share = 0;
+    std::string where;
+};
+LeastValue leastValue(CheckBench& bench, std::span<const Medium> media);
+
+/// R_d(s r) s^2 in the medium s times thinner against R_d(r). `scales`: how many s kept parameters that are lengths in
+/// their ranges; with 0 nothing was compared.
+Difference scalingDifference(CheckBench& bench, std::span<const Medium> media, int& scales);
+
+/// With both ends exchanged.
+Difference reciprocalDifference(CheckBench& bench, std::span<const Medium> media);
 
 // The checks, grouped by file. check_values:
 Finding checkFinite(CheckBench& bench);

@@ -18,12 +18,13 @@ Probe changed(Probe probe, const std::function<void(Query&, unsigned)>& change) 
     return probe;
 }
 
-// The largest change over all media when the queries are changed.
-Difference changeOf(CheckBench& bench, const std::function<void(Query&, unsigned)>& change) {
+// The largest change over the media when the queries are changed.
+Difference changeOf(CheckBench& bench, std::span<const Medium> media,
+                    const std::function<void(Query&, unsigned)>& change) {
     const Probe before = makeProbe();
     const Probe after = changed(before, change);
     Difference worst;
-    for (const Medium& medium : checkMedia())
+    for (const Medium& medium : media)
         worst.see(CheckBench::difference(medium, before, bench.values(medium, before), bench.values(medium, after)));
     return worst;
 }
@@ -31,7 +32,7 @@ Difference changeOf(CheckBench& bench, const std::function<void(Query&, unsigned
 // A claim that holds or not; a claim that could be made is worth a word, since programs are faster with it.
 Finding claim(CheckBench& bench, bool claimed, std::string_view attribute, std::string_view what,
               const std::function<void(Query&, unsigned)>& change) {
-    const Difference found = changeOf(bench, change);
+    const Difference found = changeOf(bench, checkMedia(), change);
     const bool holds = found.relative <= bench.rounding();
     if (claimed && !holds)
         return failed(
@@ -57,7 +58,10 @@ bool scaleParameters(CheckBench& bench, double scale, ParamValues& values) {
     for (const Param& param : bench.file().parameters) {
         const int power = lengthPower(param.unit);
         const ParamValue& value = valueOf(param, bench.parameters());
-        if (power == 0 || !std::holds_alternative<double>(value)) continue;
+        if (power == 0) continue;
+        if (std::holds_alternative<Rgb>(value))  // as a colour it has no upper end
+            values.insert_or_assign(param.name, std::pow(scale, power) * std::get<Rgb>(value));
+        if (!std::holds_alternative<double>(value)) continue;
         const double scaled_value = std::get<double>(value) * std::pow(scale, power);
         if (scaled_value < param.min || scaled_value > param.max) return false;
         values.insert_or_assign(param.name, scaled_value);
@@ -67,18 +71,16 @@ bool scaleParameters(CheckBench& bench, double scale, ParamValues& values) {
 
 }  // namespace
 
-Finding checkScaling(CheckBench& bench) {
-    if (bench.model().measured || !bench.readsMedium())
-        return reported("it does not read the medium: valid for the material it was made for, at that size only");
+Difference scalingDifference(CheckBench& bench, std::span<const Medium> media, int& scales) {
     const Probe probe = makeProbe();
     Difference worst;
-    int scales = 0;
+    scales = 0;
     for (const double scale : {10.0, 0.1, 2.0, 0.5}) {
         ParamValues parameters;
         if (!scaleParameters(bench, scale, parameters)) continue;
         ++scales;
         const Probe large = changed(probe, [&](Query& query, unsigned) { query.xo = scale * query.xo; });
-        for (const Medium& medium : checkMedia()) {
+        for (const Medium& medium : media) {
             const std::vector<Rgb> before = bench.values(medium, probe);
             std::vector<Rgb> after = bench.values(scaled(medium, scale), large, parameters);
             for (Rgb& value : after) value = scale * scale * value;
@@ -87,6 +89,14 @@ Finding checkScaling(CheckBench& bench) {
             worst.see(found);
         }
     }
+    return worst;
+}
+
+Finding checkScaling(CheckBench& bench) {
+    if (bench.model().measured || !bench.readsMedium())
+        return reported("it does not read the medium: valid for the material it was made for, at that size only");
+    int scales = 0;
+    const Difference worst = scalingDifference(bench, checkMedia(), scales);
     if (scales == 0) return skipped("no scale keeps the parameters that are lengths in their ranges");
     if (worst.relative > bench.rounding())
         return failed(fmt::format("off by {} at {}", prettyNumber(worst.relative, 2), worst.where));
@@ -122,14 +132,18 @@ Finding checkNoWo(CheckBench& bench) {
     });
 }
 
-Finding checkReciprocal(CheckBench& bench) {
-    if (!bench.file().reciprocal) return skipped("not claimed");
-    // T12(w) = T21(w) for the angle outside, so that S is reciprocal exactly when what the model returns is.
-    const Difference found = changeOf(bench, [](Query& query, unsigned) {
+Difference reciprocalDifference(CheckBench& bench, std::span<const Medium> media) {
+    return changeOf(bench, media, [](Query& query, unsigned) {
         std::swap(query.xi, query.xo);
         std::swap(query.wi, query.wo);
         std::swap(query.ni, query.no);
     });
+}
+
+Finding checkReciprocal(CheckBench& bench) {
+    if (!bench.file().reciprocal) return skipped("not claimed");
+    // T12(w) = T21(w) for the angle outside, so that S is reciprocal exactly when what the model returns is.
+    const Difference found = reciprocalDifference(bench, checkMedia());
     if (found.relative > bench.rounding())
         return failed(fmt::format("there and back differ by {} at {}", prettyNumber(found.relative, 2), found.where));
     return passed(found.relative == 0

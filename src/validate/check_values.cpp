@@ -56,29 +56,30 @@ Finding checkFinite(CheckBench& bench) {
     return passed(fmt::format("{} values, alpha' 0.1 to 1, r 0.001 to 30 mean free paths", 3 * count));
 }
 
-Finding checkNonNegative(CheckBench& bench) {
+LeastValue leastValue(CheckBench& bench, std::span<const Medium> media) {
     const Probe probe = makeProbe();
-    double least = 0;  // value
-    double share = 0;  // of r^2 R_d, which is what a logarithmic step of the radius gives, in its largest value
-    std::string where;
-    for (const Medium& medium : checkMedia()) {
+    LeastValue least;
+    for (const Medium& medium : media) {
         const std::vector<Rgb> values = bench.values(medium, probe);
         for (int c = 0; c < Rgb::channels; ++c) {
             const auto weighted = [&](std::size_t i) { return std::pow(probe.radius(i), 2) * values[i][c]; };
             double largest = 0;
             for (std::size_t i = 0; i < values.size(); ++i) largest = std::max(largest, std::abs(weighted(i)));
-            for (std::size_t i = 0; i < values.size(); ++i) {
-                if (!(weighted(i) < share * largest)) continue;
-                share = weighted(i) / largest;
-                least = values[i][c];
-                where = fmt::format("r {} mm, {}", prettyNumber(probe.radius(i), 3), mediumText(medium, c));
-            }
+            for (std::size_t i = 0; i < values.size(); ++i)
+                if (weighted(i) < least.share * largest)
+                    least = {values[i][c], weighted(i) / largest,
+                             fmt::format("r {} mm, {}", prettyNumber(probe.radius(i), 3), mediumText(medium, c))};
         }
     }
-    if (least == 0) return passed(fmt::format("{} values", 3 * probe.queries.size() * checkMedia().size()));
-    const std::string found = fmt::format("{} 1/mm^2 at {}", prettyNumber(least), where);
+    return least;
+}
+
+Finding checkNonNegative(CheckBench& bench) {
+    const LeastValue least = leastValue(bench, checkMedia());
+    if (least.value == 0) return passed(fmt::format("{} values", 3 * makeProbe().queries.size() * checkMedia().size()));
+    const std::string found = fmt::format("{} 1/mm^2 at {}", prettyNumber(least.value), least.where);
     // Float rounds differences that far below the largest value to either side of zero.
-    return share < -1e-6 ? failed(found) : reported(found + ": as small as rounding makes it");
+    return least.share < -1e-6 ? failed(found) : reported(found + ": as small as rounding makes it");
 }
 
 Finding checkParameterEnds(CheckBench& bench) {

@@ -17,7 +17,7 @@ Report example() {
     section.paragraphs = {"One & two."};
     section.tables.push_back({"In numbers",
                               {"Model", "RMS, %", "Total", "Remark"},
-                              {{"dipole", "-12.3 %", "0.31", "1 of 2 fits"}, {"better", "4", "—", ""}}});
+                              {{"dipole", "-12.3 %", "0.31", "1 of 2 fits"}, {"better", ">1000 %", "—", ""}}});
     Figure figure;
     figure.title = "A figure";
     figure.series.push_back({.label = "line", .x = {0, 1}, .y = {0, 1}, .color = 0});

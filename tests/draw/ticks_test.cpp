@@ -114,5 +114,12 @@ TEST(Ticks, EveryTickLiesInRangeAndTheyAscend) {
             }
 }
 
+TEST(Ticks, NamesStandAtWholeNumbers) {
+    const AxisTicks axis = namedTicks({"near", "far"});
+    EXPECT_THAT(labels(axis), ElementsAre("near", "far"));
+    EXPECT_THAT(values(axis, true), ElementsAre(0, 1));
+    EXPECT_EQ(axis.factor, 0);
+}
+
 }  // namespace
 }  // namespace searchlight
