@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "base/error.h"
@@ -25,7 +26,7 @@ constexpr double pixels_per_px = 2;
 constexpr std::string_view white = "#ffffff";
 
 bool ascending(const std::vector<double>& edges) {
-    return edges.size() >= 2 && std::is_sorted(edges.begin(), edges.end(), std::less_equal<>());
+    return edges.size() >= 2 && std::adjacent_find(edges.begin(), edges.end(), std::greater_equal<>()) == edges.end();
 }
 
 void check(const FalseColor& map) {

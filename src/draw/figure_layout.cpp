@@ -32,9 +32,6 @@ Rect legendBox(const LegendSize& size, const Rect& frame, const DrawnData& data)
 Drawing layoutFigure(const Figure& figure) {
     if (figure.map || !figure.panels.empty()) return layoutPanels(figure);
     const FigureRange range = figureRange(figure);
-    const auto ticksOf = [](const Axis& axis, double min, double max, int target) {
-        return axis.names.empty() ? axisTicks(axis.scale, min, max, target) : namedTicks(axis.names);
-    };
     const AxisTicks x_ticks = ticksOf(figure.x, range.x_min, range.x_max, 7);
     const AxisTicks y_ticks = ticksOf(figure.y, range.y_min, range.y_max, 6);
 

@@ -25,6 +25,10 @@ std::string axisText(const Axis& axis) {
     return axis.unit.empty() ? axis.label : fmt::format("{} ({})", axis.label, axis.unit);
 }
 
+AxisTicks ticksOf(const Axis& axis, double min, double max, int target) {
+    return axis.names.empty() ? axisTicks(axis.scale, min, max, target) : namedTicks(axis.names);
+}
+
 std::vector<LegendEntry> legendEntries(const Figure& figure) {
     std::vector<LegendEntry> entries;
     for (const Series& series : figure.series)

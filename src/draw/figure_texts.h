@@ -8,6 +8,7 @@
 #include "base/figure.h"
 #include "draw/drawing.h"
 #include "draw/legend.h"
+#include "draw/ticks.h"
 
 namespace searchlight {
 
@@ -18,6 +19,9 @@ inline constexpr std::string_view soft_ink = "#4d4d4d";
 
 /// "Radius (mm)".
 std::string axisText(const Axis& axis);
+
+/// Names where the axis has them, numbers otherwise.
+AxisTicks ticksOf(const Axis& axis, double min, double max, int target);
 
 /// One entry for each series that has one; says where a logarithmic axis hides negative values.
 std::vector<LegendEntry> legendEntries(const Figure& figure);

@@ -52,8 +52,8 @@ public:
         for (const Figure* panel : panels_) {
             ranges_.push_back(rangeOf(*panel));
             const int target = columns_ > 2 ? 5 : 7;
-            x_ticks_.push_back(axisTicks(panel->x.scale, ranges_.back().x_min, ranges_.back().x_max, target));
-            y_ticks_.push_back(axisTicks(panel->y.scale, ranges_.back().y_min, ranges_.back().y_max, 6));
+            x_ticks_.push_back(ticksOf(panel->x, ranges_.back().x_min, ranges_.back().x_max, target));
+            y_ticks_.push_back(ticksOf(panel->y, ranges_.back().y_min, ranges_.back().y_max, 6));
         }
         for (std::size_t i = 0; i < panels_.size(); ++i) {
             if (!showsX(i)) x_ticks_[i] = unlabelled(x_ticks_[i]);

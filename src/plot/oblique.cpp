@@ -35,10 +35,9 @@ Figure panelFigure(const StripPanel& panel, const ObliqueOptions& options) {
     figure.title = panel.heading;
     figure.x = {"x, along the beam's lean", "mm", AxisScale::linear, panel.edges_mm.front(), panel.edges_mm.back()};
     figure.y = {"Diffuse reflectance", "1/mm²", options.y_scale};
-    int color = -1;
+    int color = 0;
     for (const StripCurve& curve : panel.models) {
-        if (!curve.dashed || color < 0) ++color;
-        Series series{.label = curve.label, .color = color, .dashed = curve.dashed};
+        Series series{.label = curve.label, .color = color++};
         for (std::size_t i = 0; i < curve.means.size(); ++i) {
             series.x.push_back(0.5 * (panel.edges_mm[i] + panel.edges_mm[i + 1]));
             series.y.push_back(pick(curve.means[i], options.channel));

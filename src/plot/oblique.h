@@ -14,7 +14,6 @@ namespace searchlight {
 struct StripCurve {
     std::string label;
     std::vector<Rgb> means;  ///< over the cells of the strip, 1/mm^2
-    bool dashed = false;     ///< a variant of the model before it, in its colour
 };
 
 /// A tally per unit incident flux.
