@@ -74,6 +74,8 @@ void registerModel(const Model& model, gl::Context& context) {
 int main(int argc, char** argv) {
     searchlight::gl::Context context;
     for (const searchlight::Model& model : searchlight::shippedModels()) searchlight::registerModel(model, context);
+    const searchlight::Model sum = searchlight::loadModel("better_dipole+single");
+    searchlight::registerModel(sum, context);
     benchmark::Initialize(&argc, argv);
     benchmark::RunSpecifiedBenchmarks();
 }

@@ -80,23 +80,31 @@ void dualTree(benchmark::State& state, const std::string& material, double radiu
         static_cast<double>(statistics.interactions) / static_cast<double>(receivers.size());
 }
 
-// All of a frame but the picture: 1280 x 720, about 470,000 pixels covered. `moved`: new receivers and a new pilot.
-void frame(benchmark::State& state, const std::string& material, bool moved, int threads) {
+// All of a frame but the picture: 1280 x 720, about 470,000 pixels covered.
+enum class Frame {
+    still,   // nothing changed
+    judged,  // the sum has to be judged, as after a change
+    moved    // with new receivers as well
+};
+
+void frame(benchmark::State& state, const std::string& material, Frame kind, int threads) {
     const Subject subject(material, 10, 200'000, 784);
     PointTree tree(subject.cloud);
     tree.setTransmitted(subject.transmitted);
     const RadialTable table(subject.profile, tree.meanArea());
     const ReceiverTree receivers(subject.receivers);
     SumCalibration calibration;
-    const SumOptions options{.error = 0.005, .threads = threads, .calibration = &calibration};
-    sumExitance(tree, table, receivers, options);
+    SumMemory memory;
+    const SumOptions options{.error = 0.005, .threads = threads, .calibration = &calibration, .memory = &memory};
+    std::vector<Rgbf> exitance;
+    sumExitance(tree, table, receivers, options, exitance);
     for (auto _ : state) {
-        if (moved) {
-            calibration.key = 0;
-            benchmark::DoNotOptimize(sumExitance(tree, table, subject.receivers, options));
-        } else {
-            benchmark::DoNotOptimize(sumExitance(tree, table, receivers, options));
-        }
+        if (kind != Frame::still) calibration.key = 0;
+        if (kind == Frame::moved)
+            sumExitance(tree, table, ReceiverTree(subject.receivers, threads), options, exitance);
+        else
+            sumExitance(tree, table, receivers, options, exitance);
+        benchmark::DoNotOptimize(exitance.data());
     }
     report(state, subject.receivers.size());
 }
@@ -260,10 +268,10 @@ void registerAll() {
         row(fmt::format("receivers/{}", side * side * 3 / 4),
             [=](benchmark::State& state) { dualTree(state, "skin1", 10, 0.004, 200'000, side); });
     for (const char* material : {"skin1", "marble"})
-        for (const bool moved : {false, true})
-            benchmark::RegisterBenchmark(
-                fmt::format("frame_1280x720/{}/{}", material, moved ? "moved" : "still").c_str(),
-                [=](benchmark::State& state) { frame(state, material, moved, 2); })
+        for (const auto& [kind, name] :
+             {std::pair{Frame::still, "still"}, {Frame::judged, "judged"}, {Frame::moved, "moved"}})
+            benchmark::RegisterBenchmark(fmt::format("frame_1280x720/{}/{}", material, name).c_str(),
+                                         [=, kind = kind](benchmark::State& state) { frame(state, material, kind, 2); })
                 ->Unit(benchmark::kMillisecond)
                 ->MeasureProcessCPUTime()
                 ->UseRealTime();

@@ -27,3 +27,19 @@ vec3 decayMean(vec3 x) { return vec3(decayMean(x.x), decayMean(x.y), decayMean(x
 vec3 sourceMinusImage(vec3 s, vec3 d, vec3 gap) {
     return exp(-s * d) * gap / (d + gap) * (1.0 / d + s * decayMean(s * gap));
 }
+
+// Mean depth of a first collision within a slab of optical thickness tau, in mean free paths: tau/2 when thin, 1 when
+// thick.
+float firstCollisionDepth(float tau) {
+    if (tau > 0.5) return 1.0 - tau * exp(-tau) / (1.0 - exp(-tau));
+    // The same by its series of Bernoulli numbers up to tau^12, 1e-15 at the seam.
+    float t2 = tau * tau;
+    float series = 1.0 / 47900160.0 - t2 * 5.284190138687493e-10;
+    series = -1.0 / 1209600.0 + t2 * series;
+    series = 1.0 / 30240.0 + t2 * series;
+    series = -1.0 / 720.0 + t2 * series;
+    return 0.5 * tau - t2 * (1.0 / 12.0 + t2 * series);
+}
+vec3 firstCollisionDepth(vec3 tau) {
+    return vec3(firstCollisionDepth(tau.x), firstCollisionDepth(tau.y), firstCollisionDepth(tau.z));
+}

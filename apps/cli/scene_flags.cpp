@@ -5,8 +5,10 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "base/files.h"
 #include "base/text.h"
 #include "job/engine.h"
+#include "render/brdf_file.h"
 
 namespace searchlight {
 
@@ -28,6 +30,7 @@ constexpr SceneFlag flags[] = {
     {"ground", "a diffuse plane under the object, at a height above its lowest point (default 0)", true},
     {"backdrop", "radiance behind everything: one number or R,G,B (default: transparent, or the environment)"},
     {"coat", "a surface on top: its roughness, or a .brdf file"},
+    {"brdf_set", "parameters of that file: name=value, several separated by commas"},
 };
 
 const Param& keyOf(std::string_view section, std::string_view key) {
@@ -148,6 +151,13 @@ void applyCamera(const Typed& typed, Camera& camera) {
     if (typed.has("target")) camera.target = vectorOf("target", typed.text("target"));
 }
 
+void setAll(const ParamValues& given, ParamValues& parameters) {
+    for (const auto& [name, value] : given) {
+        const Rgb* color = std::get_if<Rgb>(&value);  // in a scene, a list like any other
+        parameters[name] = color ? ParamValue(std::vector<double>{color->r, color->g, color->b}) : value;
+    }
+}
+
 // "better_dipole:Moments=exact" and --set become the scene's values by name.
 void applyModel(const Typed& typed, SceneModel& model) {
     std::vector<std::string> settings;
@@ -160,10 +170,25 @@ void applyModel(const Typed& typed, SceneModel& model) {
     if (typed.has("set")) settings.push_back(join(typed.all("set"), ","));
     if (settings.empty()) return;
     const Model loaded = loadModel(model.id);
-    for (const auto& [name, value] : parseSettings(loaded, settings)) {
-        const Rgb* color = std::get_if<Rgb>(&value);  // in a scene, a list like any other
-        model.parameters[name] = color ? ParamValue(std::vector<double>{color->r, color->g, color->b}) : value;
+    setAll(parseSettings(loaded, settings), model.parameters);
+}
+
+void applyCoat(const Typed& typed, std::optional<Coat>& coat) {
+    if (typed.has("coat")) {
+        const std::string& text = typed.text("coat");
+        coat.emplace();
+        if (parseNumber(text))
+            coat->roughness = typed.value<double>("coat", "coat", "roughness");
+        else if (text.ends_with(".brdf"))
+            coat->brdf = text;
+        else
+            throw usageError(fmt::format("'{}' is no coat", text), "expected a roughness from 0 to 1, or a .brdf file");
     }
+    if (!typed.has("brdf_set")) return;
+    if (!coat || coat->brdf.empty())
+        throw usageError("--brdf-set is for a coat from a .brdf file", "such as --coat paint.brdf");
+    const BrdfFile file = parseBrdf(readFile(coat->brdf), coat->brdf);
+    setAll(parseSettings(file.parameters, file.path, typed.all("brdf_set")), coat->parameters);
 }
 
 }  // namespace
@@ -182,16 +207,7 @@ void applySceneFlags(const TypedFlags& values, Scene& scene) {
         if (!typed.text("ground").empty()) scene.ground->height = typed.value<double>("ground", "ground", "height");
     }
     if (typed.has("backdrop")) scene.backdrop = typed.value<Rgb>("backdrop", "scene", "backdrop");
-    if (typed.has("coat")) {
-        Coat& coat = scene.coat.emplace();
-        if (parseNumber(typed.text("coat")))
-            coat.roughness = typed.value<double>("coat", "coat", "roughness");
-        else if (typed.text("coat").ends_with(".brdf"))
-            coat.brdf = typed.text("coat");
-        else
-            throw usageError(fmt::format("'{}' is no coat", typed.text("coat")),
-                             "expected a roughness from 0 to 1, or a .brdf file");
-    }
+    applyCoat(typed, scene.coat);
 }
 
 }  // namespace searchlight

@@ -1,12 +1,12 @@
 #include "draw/figure_layout.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 
+#include "draw/figure_texts.h"
 #include "draw/legend.h"
+#include "draw/panel_layout.h"
 #include "draw/plot_area.h"
 #include "draw/text_width.h"
 
@@ -14,29 +14,7 @@ namespace searchlight {
 
 namespace {
 
-constexpr double document_width = 640, plot_height = 380, margin = 16;
-constexpr double title_size = 14, label_size = 13, caption_size = 11;
-constexpr double title_line = 19, caption_line = 15, factor_line = 16;
-constexpr std::string_view soft_ink = "#4d4d4d";
-
-std::string axisText(const Axis& axis) {
-    return axis.unit.empty() ? axis.label : fmt::format("{} ({})", axis.label, axis.unit);
-}
-
-// What a logarithmic axis drops is said in the legend.
-std::string legendLabel(const Figure& figure, const Series& series) {
-    const bool hides = figure.y.scale == AxisScale::logarithmic &&
-                       std::any_of(series.y.begin(), series.y.end(), [](double y) { return y < 0; });
-    return series.label + (hides ? " (negative part not shown)" : "");
-}
-
-std::vector<LegendEntry> legendEntries(const Figure& figure) {
-    std::vector<LegendEntry> entries;
-    for (const Series& series : figure.series)
-        if (series.in_legend && !series.label.empty())
-            entries.push_back({legendLabel(figure, series), series.style, lookOf(series), !series.lower.empty()});
-    return entries;
-}
+constexpr double document_width = 640, plot_height = 380, factor_line = 16;
 
 // Within the frame where it hides next to nothing, beside it otherwise.
 Rect legendBox(const LegendSize& size, const Rect& frame, const DrawnData& data) {
@@ -49,16 +27,10 @@ Rect legendBox(const LegendSize& size, const Rect& frame, const DrawnData& data)
     return {left, frame.top, left + size.width, frame.top + size.height};
 }
 
-// "×10⁻⁵" at the end of an axis whose labels are to be multiplied by it; starts at `at`.
-void drawFactor(std::vector<Shape>& shapes, Point at, int exponent) {
-    constexpr std::string_view base = "×10";
-    drawPower(shapes, {at.x + textWidth(base, tick_size), at.y}, base,
-              fmt::format("{}{}", exponent < 0 ? "−" : "", std::abs(exponent)));
-}
-
 }  // namespace
 
 Drawing layoutFigure(const Figure& figure) {
+    if (figure.map || !figure.panels.empty()) return layoutPanels(figure);
     const FigureRange range = figureRange(figure);
     const auto ticksOf = [](const Axis& axis, double min, double max, int target) {
         return axis.names.empty() ? axisTicks(axis.scale, min, max, target) : namedTicks(axis.names);
@@ -68,11 +40,11 @@ Drawing layoutFigure(const Figure& figure) {
 
     double tick_labels = 0;
     for (const Tick& tick : y_ticks.ticks) tick_labels = std::max(tick_labels, labelWidth(tick));
-    const double right = document_width - margin;
-    const double left = margin + (figure.y.label.empty() ? 0 : label_size + 8) + tick_labels + 7;
+    const double right = document_width - page_margin;
+    const double left = page_margin + (figure.y.label.empty() ? 0 : label_size + 8) + tick_labels + 7;
     const std::vector<std::string> title = wrapText(figure.title, right - left, title_size, true);
-    const double top =
-        std::round(margin + title_line * static_cast<double>(title.size()) + (y_ticks.factor != 0 ? factor_line : 0));
+    const double top = std::round(page_margin + title_line * static_cast<double>(title.size()) +
+                                  (y_ticks.factor != 0 ? factor_line : 0));
     // Half a px: thin lines then fill a row of pixels instead of two halves.
     const Rect frame{std::round(left) + 0.5, top + 0.5, right + 0.5, top + plot_height + 0.5};
 
@@ -85,26 +57,22 @@ Drawing layoutFigure(const Figure& figure) {
     const Rect legend = entries.empty() ? Rect{} : legendBox(legendSize(entries), frame, data);
 
     Drawing drawing;
-    drawing.width = std::max(document_width, std::ceil(legend.right + margin));
+    drawing.width = std::max(document_width, std::ceil(legend.right + page_margin));
     const double label_base = frame.bottom + (figure.x.label.empty() ? 22 : 40);
-    const std::vector<std::string> caption = wrapText(figure.caption, drawing.width - 2 * margin, caption_size);
+    const std::vector<std::string> caption = wrapText(figure.caption, drawing.width - 2 * page_margin, caption_size);
     const double caption_top = std::max(label_base + (caption.empty() ? 0 : 14), legend.bottom);
-    drawing.height = std::ceil(caption_top + caption_line * static_cast<double>(caption.size()) + margin - 4);
+    drawing.height = std::ceil(caption_top + caption_line * static_cast<double>(caption.size()) + page_margin - 4);
 
     std::vector<Shape>& shapes = drawing.shapes;
     shapes.push_back(Box{{0, 0, drawing.width, drawing.height}, "#ffffff"});
-    double base = margin + title_size - 3;
-    for (const std::string& line : title) {
-        shapes.push_back(Text{{frame.left, base}, line, title_size, Anchor::start, ink, true});
-        base += title_line;
-    }
+    drawTitle(shapes, title, frame.left, page_margin);
     plot.drawGrid(shapes);
     shapes.insert(shapes.end(), std::move_iterator(curves.begin()), std::move_iterator(curves.end()));
     plot.drawAxes(shapes);
     if (!entries.empty()) drawLegend(shapes, entries, legend);
     shapes.push_back(
         Text{{0.5 * (frame.left + frame.right), label_base}, axisText(figure.x), label_size, Anchor::middle, ink});
-    shapes.push_back(Text{{margin + label_size - 3, 0.5 * (frame.top + frame.bottom)},
+    shapes.push_back(Text{{page_margin + label_size - 3, 0.5 * (frame.top + frame.bottom)},
                           axisText(figure.y),
                           label_size,
                           Anchor::middle,
@@ -113,11 +81,7 @@ Drawing layoutFigure(const Figure& figure) {
                           true});
     if (y_ticks.factor != 0) drawFactor(shapes, {frame.left, frame.top - 6}, y_ticks.factor);
     if (x_ticks.factor != 0) drawFactor(shapes, {frame.right - 40, label_base}, x_ticks.factor);
-    base = caption_top - 4;
-    for (const std::string& line : caption) {
-        base += caption_line;
-        shapes.push_back(Text{{margin, base}, line, caption_size, Anchor::start, soft_ink});
-    }
+    drawCaption(shapes, caption, caption_top);
     return drawing;
 }
 

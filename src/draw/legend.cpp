@@ -13,6 +13,20 @@ constexpr double font_size = 12, row_height = 18, swatch_width = 26, padding = 8
 constexpr double inset = 8;      // from the frame
 constexpr double clearance = 5;  // between box and data
 
+void drawEntry(std::vector<Shape>& shapes, const LegendEntry& entry, double left, double middle) {
+    const double right = left + swatch_width, center = 0.5 * (left + right);
+    const SeriesLook& look = entry.look;
+    if (entry.style == SeriesStyle::points) {
+        if (entry.band) shapes.push_back(Polyline{{{center, middle - 6}, {center, middle + 6}}, {look.color, 1}});
+        shapes.push_back(Circle{{center, middle}, 2.8, look.color});
+    } else {
+        const Rect band{left, middle - 5, right, middle + 5};
+        if (entry.band) shapes.push_back(Box{band, look.color, {}, look.band_opacity});
+        shapes.push_back(Polyline{{{left, middle}, {right, middle}}, {look.color, look.width, look.dashes}});
+    }
+    shapes.push_back(Text{{right + gap, middle + 4.2}, entry.label, font_size, Anchor::start, "#1a1a1a"});
+}
+
 }  // namespace
 
 LegendSize legendSize(std::span<const LegendEntry> entries) {
@@ -52,19 +66,19 @@ void drawLegend(std::vector<Shape>& shapes, std::span<const LegendEntry> entries
     shapes.push_back(Box{box, "#ffffff", "#d9d9d9", 0.88});
     double middle = box.top + 0.5 * padding + 0.5 * row_height;
     for (const LegendEntry& entry : entries) {
-        const double left = box.left + padding, right = left + swatch_width, center = 0.5 * (left + right);
-        const SeriesLook& look = entry.look;
-        if (entry.style == SeriesStyle::points) {
-            if (entry.band) shapes.push_back(Polyline{{{center, middle - 6}, {center, middle + 6}}, {look.color, 1}});
-            shapes.push_back(Circle{{center, middle}, 2.8, look.color});
-        } else {
-            const Rect band{left, middle - 5, right, middle + 5};
-            if (entry.band) shapes.push_back(Box{band, look.color, {}, look.band_opacity});
-            shapes.push_back(Polyline{{{left, middle}, {right, middle}}, {look.color, look.width, look.dashes}});
-        }
-        shapes.push_back(Text{{right + gap, middle + 4.2}, entry.label, font_size, Anchor::start, "#1a1a1a"});
+        drawEntry(shapes, entry, box.left + padding, middle);
         middle += row_height;
     }
+}
+
+double drawLegendRows(std::vector<Shape>& shapes, std::span<const LegendEntry> entries, Point at, double width) {
+    const double column = legendSize(entries).width + gap;
+    const size_t columns = std::clamp<size_t>(static_cast<size_t>(width / column), 1, entries.size());
+    const size_t rows = (entries.size() + columns - 1) / columns;
+    for (size_t i = 0; i < entries.size(); ++i)
+        drawEntry(shapes, entries[i], at.x + column * static_cast<double>(i / rows),
+                  at.y + row_height * (static_cast<double>(i % rows) + 0.5));
+    return row_height * static_cast<double>(rows);
 }
 
 }  // namespace searchlight

@@ -49,4 +49,7 @@ LegendPlace placeLegend(const LegendSize& size, const Rect& plot, const DrawnDat
 
 void drawLegend(std::vector<Shape>& shapes, std::span<const LegendEntry> entries, const Rect& box);
 
+/// Entries in columns without a box, as wide as `width` lets them; starts at `at`. Returns the height.
+double drawLegendRows(std::vector<Shape>& shapes, std::span<const LegendEntry> entries, Point at, double width);
+
 }  // namespace searchlight

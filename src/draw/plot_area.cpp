@@ -47,6 +47,7 @@ Polyline thinLine(Point from, Point to, std::string_view color) { return {{from,
 
 SeriesLook lookOf(const Series& series) {
     const std::vector<double> dashed{6, 3};
+    if (series.color == outline_color) return {"#ffffff", 1.6, series.dashed ? dashed : std::vector<double>{}, 0.18};
     if (series.color < 0) return {ink, 1.3, series.dashed ? dashed : std::vector<double>{}, 0.18};
     const size_t color = static_cast<size_t>(series.color);
     return {palette[color % palette.size()], 1.9, series.dashed ? dashed : cycleDashes(color / palette.size()), 0.16};
@@ -182,6 +183,8 @@ void PlotArea::drawCurve(std::vector<Shape>& shapes, const Series& series, Drawn
     }
     for (std::vector<Point>& piece : clipPolyline(path, frame_)) {
         sample(piece, data.lines);
+        // On light and on dark colours.
+        if (series.color == outline_color) shapes.push_back(Polyline{piece, {ink, look.width + 1.6}});
         shapes.push_back(Polyline{std::move(piece), {look.color, look.width, look.dashes}});
     }
 }

@@ -40,6 +40,8 @@ bool isSoftware(std::string_view renderer) {
            renderer.find("SWR") != renderer.npos;
 }
 
+Error lostError() { return deviceError("the OpenGL context was lost: the GPU was reset or taken away"); }
+
 // Hardware devices, then surfaceless (Mesa's choice, mostly llvmpipe), then what is left.
 int rank(const Platform& platform) { return platform.hardware ? 0 : platform.device ? 2 : 1; }
 
@@ -98,8 +100,9 @@ bool Context::tryMakeCurrent() noexcept {
 }
 
 void Context::makeCurrent() {
-    if (!tryMakeCurrent())
-        throw deviceError("the OpenGL context could not be made current", "another thread holds it, or it was lost");
+    if (tryMakeCurrent()) return;
+    if (lost()) throw lostError();
+    throw deviceError("the OpenGL context could not be made current", "another thread holds it");
 }
 
 void Context::release() {
@@ -107,7 +110,7 @@ void Context::release() {
 }
 
 void Context::checkpoint() {
-    if (lost()) throw deviceError("the OpenGL context was lost: the GPU was reset");
+    if (lost()) throw lostError();
     if (messages_->errors.empty()) return;
     const std::string text = join(messages_->errors, "; ");
     messages_->errors.clear();
@@ -124,8 +127,8 @@ double Context::finish() {
 }
 
 bool Context::lost() {
-    makeCurrent();
-    if (!lost_) lost_ = glGetGraphicsResetStatus() != GL_NO_ERROR;
+    if (!lost_)
+        lost_ = tryMakeCurrent() ? glGetGraphicsResetStatus() != GL_NO_ERROR : eglGetError() == EGL_CONTEXT_LOST;
     return lost_;
 }
 

@@ -47,6 +47,9 @@ public:
     /// The GPU was reset or taken away: everything in this context is gone, a new one must be made.
     bool lost();
 
+    /// From now on it is lost(): what a GPU that is reset does to it.
+    void abandon() { lost_ = true; }
+
 private:
     struct Messages;
 

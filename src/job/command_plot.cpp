@@ -8,57 +8,15 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "base/version.h"
-#include "draw/draw.h"
 #include "job/command_table.h"
 #include "job/curves.h"
-#include "job/json.h"
+#include "job/figure_result.h"
 #include "job/shared_options.h"
 #include "model/plane.h"
 
 namespace searchlight {
 
 namespace {
-
-AxisScale scaleNamed(const std::string& name) {
-    return name == "lin" ? AxisScale::linear : name == "log" ? AxisScale::logarithmic : AxisScale::square_root;
-}
-
-PlotChannel channelNamed(const std::string& name) {
-    return name == "R"   ? PlotChannel::red
-           : name == "G" ? PlotChannel::green
-           : name == "B" ? PlotChannel::blue
-                         : PlotChannel::luminance;
-}
-
-// Draws into the job's output, or hands the numbers out as CSV.
-JobResult finish(Figure figure, const Job& job, Observer& observer) {
-    figure.metadata = {{"program", fmt::format("Searchlight {}", version())}, {"job", jobJson(job)}};
-    JobResult result;
-    Json document = documentJson("searchlight-figure/1", job);
-    document["title"] = figure.title;
-    document["caption"] = figure.caption;
-    document["x"] = {{"label", figure.x.label}, {"unit", figure.x.unit}};
-    document["y"] = {{"label", figure.y.label}, {"unit", figure.y.unit}};
-    document["series"] = Json::array();
-    for (const Series& series : figure.series) {
-        Json json{{"label", series.label}, {"x", series.x}, {"y", series.y}};
-        if (!series.lower.empty()) {
-            json["lower"] = series.lower;
-            json["upper"] = series.upper;
-        }
-        document["series"].push_back(std::move(json));
-    }
-    if (job.output.empty())
-        result.text = figureCsv(figure);
-    else {
-        drawFigure(figure, job.output);
-        document["file"] = job.output;
-        observer.log(LogLevel::info, fmt::format("wrote {}", job.output));
-    }
-    result.json = document.dump(1);
-    return result;
-}
 
 struct PencilData {
     std::vector<PencilCurve> models;
@@ -110,12 +68,13 @@ JobResult runPlotPencil(const Job& job, Engine& engine, Observer& observer) {
     PencilData data = pencilData(job, engine, observer, false);
     data.options.y_scale = scaleNamed(options.text("y_scale"));
     data.options.radius_power = static_cast<int>(options.number("times_radius"));
-    return finish(pencilFigure(data.models, data.reference ? &*data.reference : nullptr, data.options), job, observer);
+    return figureResult(pencilFigure(data.models, data.reference ? &*data.reference : nullptr, data.options), job,
+                        observer);
 }
 
 JobResult runPlotError(const Job& job, Engine& engine, Observer& observer) {
     const PencilData data = pencilData(job, engine, observer, true);
-    return finish(relativeErrorFigure(data.models, *data.reference, data.options), job, observer);
+    return figureResult(relativeErrorFigure(data.models, *data.reference, data.options), job, observer);
 }
 
 JobResult runPlotAlbedo(const Job& job, Engine& engine, Observer& observer) {
@@ -123,8 +82,8 @@ JobResult runPlotAlbedo(const Job& job, Engine& engine, Observer& observer) {
     const AlbedoData data = albedoData(options.number("eta"), options.number("g"), options.names("models"),
                                        static_cast<std::uint64_t>(options.number("reference_walks")), job.seed,
                                        options.text("backend"), engine, observer);
-    return finish(albedoFigure(data.models, data.reference ? &*data.reference : nullptr, options.number("eta")), job,
-                  observer);
+    return figureResult(albedoFigure(data.models, data.reference ? &*data.reference : nullptr, options.number("eta")),
+                        job, observer);
 }
 
 }  // namespace

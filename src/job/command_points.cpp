@@ -31,6 +31,7 @@ Mesh meshOf(const Job& job, const Options& options) {
 
 JobResult runPoints(const Job& job, Engine&, Observer& observer) {
     const Options options(job);
+    const bool in_mm = options.number("scale") > 0;
     const Mesh mesh = meshOf(job, options);
     const PointOptions wanted{.count = static_cast<std::size_t>(options.number("count")),
                               .method = options.text("method") == "turk" ? PointMethod::turk : PointMethod::fast,
@@ -48,12 +49,18 @@ JobResult runPoints(const Job& job, Engine&, Observer& observer) {
     for (const float a : points.cloud.areas) sum += a, squares += (a - mean) * (a - mean);
     const double scatter = std::sqrt(squares / count) / mean;
     Json document = documentJson("searchlight-points/1", job);
-    document["points"] = {{"count", wanted.count}, {"method", options.text("method")},
-                          {"area", area},          {"area_error", sum / area - 1},
-                          {"area_std", scatter},   {"spacing", std::sqrt(mean)},
-                          {"cached", points.hit},  {"seconds", seconds}};
-    std::string text = fmt::format("{} points, {} apart, areas sum to {} and scatter by {} %; {} in {:.2f} s\n",
-                                   wanted.count, prettyNumber(std::sqrt(mean)), prettyNumber(sum, 6),
+    document["points"] = {{"count", wanted.count},
+                          {"method", options.text("method")},
+                          {"area", area},
+                          {"area_error", sum / area - 1},
+                          {"area_std", scatter},
+                          {"spacing", std::sqrt(mean)},
+                          {"cached", points.hit},
+                          {"seconds", seconds},
+                          {"unit", in_mm ? "mm" : "the mesh's own"}};
+    std::string text = fmt::format("{} points, {} {} apart, areas sum to {} {}² and scatter by {} %; {} in {:.2f} s\n",
+                                   wanted.count, prettyNumber(std::sqrt(mean)), in_mm ? "mm" : "of the mesh's units",
+                                   prettyNumber(sum, 6), in_mm ? "mm" : "of the mesh's units",
                                    prettyNumber(100 * scatter, 2), points.hit ? "read" : "made", seconds);
     return {.text = std::move(text), .json = document.dump(1)};
 }

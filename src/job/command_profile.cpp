@@ -7,6 +7,7 @@
 #include "job/json.h"
 #include "job/shared_options.h"
 #include "model/plane.h"
+#include "model/sum_model.h"
 
 namespace searchlight {
 
@@ -51,10 +52,12 @@ JobResult runProfile(const Job& job, Engine& engine, Observer&) {
     document["radii_mm"] = radii;
     document["Rd"] = channelRows(Rd, medium);
     document["total"] = channelList(total, medium);
-    if (loaded.model.file.diffuse_reflectance.present() && angle_deg == 0)
+    if (hasDiffuseReflectance(loaded.model) && angle_deg == 0)
         document["total_closed_form"] =
             channelList(entry * loaded.evaluator->diffuseReflectance(medium.alphaPrime()), medium);
     document["unit"] = "1/mm^2";
+    const std::string twice = countedTwice(loaded.model);
+    if (!twice.empty()) document["notes"] = {twice};
     if (interpolation_error > 0) document["interpolation_error"] = interpolation_error;
 
     JobResult result;
@@ -71,6 +74,7 @@ JobResult runProfile(const Job& job, Engine& engine, Observer&) {
     for (int c = 0; c < medium.channels; ++c)
         result.text += medium.scatters(c) ? fmt::format(" {:>14.6f}", total[c]) : fmt::format(" {:>14}", "n/a");
     result.text += "\n";
+    if (!twice.empty()) result.text += twice + "\n";
     if (!job.output.empty())
         writeFile(job.output, job.output.ends_with(".csv")
                                   ? profileCsv(subject, loaded.model.file.title, options.text("per"), radii, Rd)

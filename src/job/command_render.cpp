@@ -96,19 +96,24 @@ RenderSettings settingsOf(const Job& job, const Options& options) {
     return settings;
 }
 
-// Milliseconds by stage: the renderer's, with the technique's own in place of its whole.
-Json stagesJson(const RenderReport& report, double write_ms) {
-    Json json;
+struct StageTime {
+    std::string name;
+    double ms = 0;
+    bool gl = false;
+};
+
+// The renderer's stages, with the technique's own in place of its whole.
+std::vector<StageTime> stageTimes(const RenderReport& report) {
+    std::vector<StageTime> times;
     for (std::size_t i = 0; i < stage_count; ++i) {
         const auto stage = static_cast<Stage>(i);
         if (stage != Stage::exitance) {
-            json[std::string(stageName(stage))] = report[stage].ms;
+            times.push_back({std::string(stageName(stage)), report[stage].ms, report[stage].gl});
             continue;
         }
-        for (const auto& [name, ms] : report.technique.stage_ms) json[name] = ms;
+        for (const auto& [name, ms] : report.technique.stage_ms) times.push_back({name, ms, report[stage].gl});
     }
-    json["write"] = write_ms;
-    return json;
+    return times;
 }
 
 Json renderJson(const RenderReport& report, const RenderSettings& settings, const TechniqueEntry& entry) {
@@ -188,7 +193,7 @@ std::vector<Param> renderOptions() {
          .type = ParamType::choice,
          .value = std::string("auto"),
          .choices = {"auto", "cpu", "gl"},
-         .doc = "what sums; auto: the CPU, and OpenGL for models that do not ship"},
+         .doc = "what lights, looks and sums; auto: the CPU, and OpenGL for models that do not ship"},
         option::threads(),
         {.name = "cache",
          .type = ParamType::text,
@@ -212,11 +217,7 @@ std::vector<Param> renderOptions() {
     return options;
 }
 
-}  // namespace
-
-RenderSettings renderSettings(const Job& job) { return settingsOf(job, Options(job)); }
-
-JobResult renderPicture(const Job& job, Engine& engine, KeptRenderer& kept, Observer& observer) {
+JobResult pictureOf(const Job& job, Engine& engine, KeptRenderer& kept, Observer& observer) {
     const Options options(job);
     const RenderSettings settings = settingsOf(job, options);
     checkObject(job.scene.object);
@@ -265,7 +266,12 @@ JobResult renderPicture(const Job& job, Engine& engine, KeptRenderer& kept, Obse
     if (!job.output.empty()) writeImage(job.output, file, tone_map);
     const auto end = std::chrono::steady_clock::now();
     const auto ms = [](auto duration) { return std::chrono::duration<double, std::milli>(duration).count(); };
-    document["ms"] = stagesJson(report, ms(end - written));
+    const std::vector<StageTime> times = stageTimes(report);
+    for (const StageTime& stage : times) {
+        document["ms"][stage.name] = stage.ms;
+        document["backends"][stage.name] = stage.gl ? "gl" : "cpu";
+    }
+    document["ms"]["write"] = ms(end - written);
     document["ms"]["total"] = ms(end - begin);
 
     JobResult result;
@@ -276,13 +282,29 @@ JobResult renderPicture(const Job& job, Engine& engine, KeptRenderer& kept, Obse
     if (report.technique.error_bound > 0)
         result.text += fmt::format(", error at most {:.2g} %", 100 * report.technique.error_bound);
     result.text += "\n";
-    for (const auto& [stage, value] : document["ms"].items())
-        if (value.get<double>() >= 0.05) result.text += fmt::format("{} {:.1f} ms, ", stage, value.get<double>());
-    result.text.resize(result.text.size() - 2);
-    result.text += "\n";
+    for (const StageTime& stage : times)
+        if (stage.ms >= 0.05)
+            result.text += fmt::format("{}{} {:.1f} ms, ", stage.name, stage.gl ? " (gl)" : "", stage.ms);
+    result.text += fmt::format("total {:.1f} ms\n", ms(end - begin));
     for (const std::string& note : report.notes) result.text += note + "\n";
     for (const std::string& note : subject.notes) result.text += note + "\n";
     return result;
+}
+
+}  // namespace
+
+RenderSettings renderSettings(const Job& job) { return settingsOf(job, Options(job)); }
+
+JobResult renderPicture(const Job& job, Engine& engine, KeptRenderer& kept, Observer& observer) {
+    try {
+        return pictureOf(job, engine, kept, observer);
+    } catch (const Error& error) {
+        if (error.kind != ErrorKind::device || !engine.contextLost()) throw;
+    }
+    // A GPU that was reset works again. One that is lost in the same picture twice is worth an error.
+    kept.renderer.reset();
+    engine.dropContext();
+    return pictureOf(job, engine, kept, observer);
 }
 
 Command renderCommand() {

@@ -93,6 +93,8 @@ ReferenceRun runReference(const Medium& medium, const ReferenceOptions& options,
         walk.edges_mm = run.edges_mm;
         walk.grid = options.grid;
         walk.grid_extent_mm = options.grid_extent_mm;
+        walk.strip_edges_mm = options.strip_edges_mm;
+        walk.strip_half_width_mm = options.strip_half_width_mm;
         walk.threads = options.threads;
         walk.estimator = options.estimator;
         if (options.control) walk.control = options.control(c);
@@ -117,12 +119,17 @@ std::vector<LoadedModel> loadModels(const std::vector<std::string>& names, std::
     return loaded;
 }
 
+std::string modelLabel(const LoadedModel& loaded) {
+    std::string label = loaded.model.file.title;
+    for (const auto& [name, value] : loaded.parameters) label += fmt::format(", {} {}", name, valueText(value));
+    return label;
+}
+
 PencilCurve modelCurve(LoadedModel& loaded, double angle_deg, const std::vector<double>& radii_mm,
                        const std::vector<double>& edges_mm) {
     const double entry = pencilBeam(loaded.medium.eta, angle_deg).transmittance;
     PencilCurve curve;
-    curve.label = loaded.model.file.title;
-    for (const auto& [name, value] : loaded.parameters) curve.label += fmt::format(", {} {}", name, valueText(value));
+    curve.label = modelLabel(loaded);
     curve.x_mm = radii_mm;
     curve.Rd = radialRd(*loaded.evaluator, loaded.model, loaded.medium, angle_deg, radii_mm);
     if (!edges_mm.empty())

@@ -45,6 +45,8 @@ struct ReferenceOptions {
     bool exact = false;  ///< solved without walks, where whyNotExact() is empty
     bool only[Rgb::channels] = {true, true, true};    ///< channels to walk
     std::function<WalkControl(int channel)> control;  ///< of the walks; may be empty
+    std::vector<double> strip_edges_mm;               ///< cells of the strip about the plane of incidence; empty: none
+    double strip_half_width_mm = 0;
 };
 
 ReferenceRun runReference(const Medium& medium, const ReferenceOptions& options, Observer& observer);
@@ -52,6 +54,9 @@ ReferenceRun runReference(const Medium& medium, const ReferenceOptions& options,
 /// Loads the comma-separated `models` of the job's options ("all": every shipped one) for the subject's medium.
 std::vector<LoadedModel> loadModels(const std::vector<std::string>& names, std::string_view backend,
                                     const Subject& subject, Engine& engine);
+
+/// Title and settings: "Better dipole, Moments exact".
+std::string modelLabel(const LoadedModel& loaded);
 
 /// The model per unit incident flux: at `radii_mm`, and averaged over the reference's annuli where there are any.
 PencilCurve modelCurve(LoadedModel& loaded, double angle_deg, const std::vector<double>& radii_mm,

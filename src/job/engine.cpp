@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "gl/context.h"
+#include "model/sum_model.h"
 
 namespace searchlight {
 
@@ -16,7 +17,13 @@ gl::Context& Engine::context() {
     return *context_;
 }
 
+bool Engine::contextLost() { return context_ && context_->lost(); }
+
+void Engine::dropContext() { context_.reset(); }
+
 std::unique_ptr<Evaluator> Engine::makeEvaluator(const Model& model, std::string_view backend) {
+    if (!model.parts.empty())
+        return makeSumEvaluator(model, [&](const Model& part) { return makeEvaluator(part, backend); });
     if (model.measured) return makeMeasuredEvaluator(model);
     const bool native = hasNativeEvaluator(model);
     if (backend == "cpu" && !native)
@@ -42,7 +49,12 @@ LoadedModel Engine::load(std::string_view name, const std::vector<std::string>& 
     return loaded;
 }
 
-ParamValues parseSettings(const Model& model, const std::vector<std::string>& settings) {
+namespace {
+
+// `name_of` makes the name of a parameter of what was given.
+template <class NameOf>
+ParamValues parsePairs(const std::vector<Param>& parameters, std::string_view what,
+                       const std::vector<std::string>& settings, const NameOf& name_of) {
     ParamValues values;
     // "Tint=1,0.5,0.2" was cut at its commas with the rest of the list.
     std::vector<std::string> whole;
@@ -56,11 +68,23 @@ ParamValues parseSettings(const Model& model, const std::vector<std::string>& se
         const std::size_t equals = setting.find('=');
         if (equals == std::string::npos)
             throw usageError(fmt::format("'{}' is no setting", setting), "expected name=value");
-        const std::string name(trim(std::string_view(setting).substr(0, equals)));
-        const Param& param = findParam(model.file.parameters, name, fmt::format("parameter of {}", model.id));
+        const std::string name = name_of(trim(std::string_view(setting).substr(0, equals)));
+        const Param& param = findParam(parameters, name, fmt::format("parameter of {}", what));
         values[name] = parseValue(param, std::string_view(setting).substr(equals + 1));
     }
     return values;
+}
+
+}  // namespace
+
+ParamValues parseSettings(const Model& model, const std::vector<std::string>& settings) {
+    return parsePairs(model.file.parameters, model.id, settings,
+                      [&](std::string_view given) { return parameterName(model, given); });
+}
+
+ParamValues parseSettings(const std::vector<Param>& parameters, std::string_view what,
+                          const std::vector<std::string>& settings) {
+    return parsePairs(parameters, what, settings, [](std::string_view given) { return std::string(given); });
 }
 
 }  // namespace searchlight

@@ -37,11 +37,21 @@ public:
 
     gl::Context& context();
 
+    /// There is a context, and it was lost.
+    bool contextLost();
+
+    /// The next context() is a new one. What was made in this one must be gone.
+    void dropContext();
+
 private:
     std::unique_ptr<gl::Context> context_;
 };
 
-/// "Moments=exact" pairs as values of the model's parameters. Throws a usage Error with the nearest names.
+/// "Moments=exact" pairs as values of the model's parameters, in a sum also "part.Moments=exact". Throws a usage Error with the nearest names.
 ParamValues parseSettings(const Model& model, const std::vector<std::string>& settings);
+
+/// The same for parameters of anything; `what` calls it in messages: "paint.brdf".
+ParamValues parseSettings(const std::vector<Param>& parameters, std::string_view what,
+                          const std::vector<std::string>& settings);
 
 }  // namespace searchlight

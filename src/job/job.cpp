@@ -11,6 +11,7 @@
 #include "base/text.h"
 #include "job/command.h"
 #include "job/json.h"
+#include "model/sum_model.h"
 #include "scene/json_text.h"
 
 namespace searchlight {
@@ -135,15 +136,16 @@ JobResult run(const Job& job, Engine& engine, Observer& observer) {
 
 std::vector<std::string> modelFiles(const Job& job) {
     std::vector<std::string> files;
-    if (findCommand(job.command).uses_scene && std::filesystem::is_regular_file(job.scene.model.id))
-        files.push_back(job.scene.model.id);
+    const auto add = [&](std::string_view model) {
+        for (std::string& part : partNames(model))
+            if (std::filesystem::is_regular_file(part)) files.push_back(std::move(part));
+    };
+    if (findCommand(job.command).uses_scene) add(job.scene.model.id);
     for (const char* option : {"model", "models", "solo"}) {
         const auto given = job.options.find(option);
         if (given == job.options.end()) continue;
-        for (const std::string_view name : split(std::get<std::string>(given->second), ',')) {
-            const std::string path(trim(name.substr(0, name.find(':'))));
-            if (std::filesystem::is_regular_file(path)) files.push_back(path);
-        }
+        for (const std::string_view name : split(std::get<std::string>(given->second), ','))
+            add(trim(name.substr(0, name.find(':'))));
     }
     return files;
 }

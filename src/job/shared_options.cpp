@@ -32,6 +32,15 @@ Param backend() {
 Param angle() {
     return {.name = "angle_deg", .unit = "deg", .min = 0, .max = 89.9, .value = 0.0, .doc = "of incidence"};
 }
+Param angles(std::vector<double> value) {
+    return {.name = "angle_deg",
+            .type = ParamType::numbers,
+            .unit = "deg",
+            .min = 0,
+            .max = 89.9,
+            .value = std::move(value),
+            .doc = "of incidence; several separated by commas"};
+}
 Param threads() {
     return {.name = "threads", .type = ParamType::integer, .min = 0, .max = 4096, .value = 0.0, .doc = "0: all"};
 }

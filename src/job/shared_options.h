@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/param.h"
 #include "job/command.h"
@@ -21,6 +22,9 @@ Param backend();
 
 /// Angle of incidence, degrees.
 Param angle();
+
+/// Several angles of incidence, degrees.
+Param angles(std::vector<double> value);
 
 /// Threads of parallel work; 0: all.
 Param threads();

@@ -4,7 +4,7 @@
 #include <array>
 #include <bit>
 #include <cassert>
-#include <span>
+#include <iterator>
 
 #include "light/stratified.h"
 
@@ -66,6 +66,28 @@ std::vector<EnvironmentBeam> environmentBeams(const Environment& environment, in
     std::vector<EnvironmentBeam> beams;
     if (!parts.empty()) split(parts, count, beams);
     return beams;
+}
+
+void appendFitted(std::vector<Beam> beams, const LitPoints& points, std::span<const Rgbf> transmitted,
+                  std::vector<Beam>& to) {
+    if (beams.empty()) return;
+    Beam rest{std::vector<Vec3f>(points.size()), std::vector<Rgbf>(points.size())};
+    for (std::size_t i = 0; i < points.size(); ++i) rest.wi[points.order[i]] = points.normals[i];
+    for (std::size_t i = 0; i < transmitted.size(); ++i) {
+        const Rgb target = toDouble(transmitted[i]);
+        Rgb sum;
+        for (const Beam& beam : beams) sum = sum + toDouble(beam.flux[i]);
+        Rgb scale, missing;
+        for (int c = 0; c < Rgb::channels; ++c) {
+            // Up to twice: a region's flux spread around its centre differs from a beam by less than that.
+            scale[c] = sum[c] > 0 ? std::min(2.0, target[c] / sum[c]) : 0;
+            missing[c] = std::max(0.0, target[c] - scale[c] * sum[c]);
+        }
+        for (Beam& beam : beams) beam.flux[i] = toFloat(scale * toDouble(beam.flux[i]));
+        rest.flux[i] = toFloat(missing);
+    }
+    std::ranges::move(beams, std::back_inserter(to));
+    to.push_back(std::move(rest));
 }
 
 }  // namespace searchlight

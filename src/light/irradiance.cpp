@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <span>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -26,24 +25,6 @@ struct Occluded {
     int samples = 0;
 };
 
-// Light of an environment as beams. Their flux is scaled, by channel, so that a point receives what `transmitted` says;
-// what points receive that (nearly) none of the beams reaches comes along their normals, in one more beam.
-void fitToTransmitted(std::span<Beam> beams, Beam& rest, std::span<const Rgbf> transmitted) {
-    for (std::size_t i = 0; i < transmitted.size(); ++i) {
-        const Rgb target = toDouble(transmitted[i]);
-        Rgb sum;
-        for (const Beam& beam : beams) sum = sum + toDouble(beam.flux[i]);
-        Rgb scale, missing;
-        for (int c = 0; c < 3; ++c) {
-            // Up to twice: a region's flux spread around its centre differs from a beam by less than that.
-            scale[c] = sum[c] > 0 ? std::min(2.0, target[c] / sum[c]) : 0;
-            missing[c] = std::max(0.0, target[c] - scale[c] * sum[c]);
-        }
-        for (Beam& beam : beams) beam.flux[i] = toFloat(scale * toDouble(beam.flux[i]));
-        rest.flux[i] = toFloat(missing);
-    }
-}
-
 }  // namespace
 
 struct ProgressiveIrradiance::Impl {
@@ -55,7 +36,7 @@ struct ProgressiveIrradiance::Impl {
     std::vector<Rgbf> fixed;        ///< all but occluded environments, in the caller's order
     std::vector<Beam> fixed_beams;  ///< the same, where beams are asked for
     std::vector<Occluded> occluded;
-    std::vector<std::vector<Beam>> occluded_beams;  ///< as traced, before fitToTransmitted(); parallel to `occluded`
+    std::vector<std::vector<Beam>> occluded_beams;  ///< as traced, before appendFitted(); parallel to `occluded`
 
     Lighting lighting(Observer& observer) const {
         return {points, object, rays, options, transmitted_cosine, observer};
@@ -91,7 +72,7 @@ struct ProgressiveIrradiance::Impl {
                 flux[points.order[i]] = by_normal(points.normals[i]);
         });
         for (std::size_t i = 0; i < fixed.size(); ++i) add(fixed[i], flux[i]);
-        appendFitted(std::move(beams), flux, fixed_beams);
+        appendFitted(std::move(beams), points, flux, fixed_beams);
     }
 
     std::vector<Beam> traceBeams(const Environment& environment, bool shadows, Observer& observer) const {
@@ -108,15 +89,6 @@ struct ProgressiveIrradiance::Impl {
             beams.push_back(std::move(beam));
         }
         return beams;
-    }
-
-    void appendFitted(std::vector<Beam> beams, std::span<const Rgbf> transmitted, std::vector<Beam>& to) const {
-        if (beams.empty()) return;
-        Beam rest{std::vector<Vec3f>(points.size()), std::vector<Rgbf>(points.size())};
-        for (std::size_t i = 0; i < points.size(); ++i) rest.wi[points.order[i]] = points.normals[i];
-        fitToTransmitted(beams, rest, transmitted);
-        std::ranges::move(beams, std::back_inserter(to));
-        to.push_back(std::move(rest));
     }
 
     std::vector<Rgb> moreSums(const Occluded& light, int count, Observer& observer) const {
@@ -178,7 +150,7 @@ Irradiance ProgressiveIrradiance::result() const {
         for (std::size_t i = 0; i < flux.size(); ++i)
             if (light.samples > 0) flux[impl_->points.order[i]] = toFloat((1.0 / light.samples) * light.sums[i]);
         for (std::size_t i = 0; i < flux.size(); ++i) add(result.transmitted[i], flux[i]);
-        impl_->appendFitted(impl_->occluded_beams[k], flux, result.beams);
+        appendFitted(impl_->occluded_beams[k], impl_->points, flux, result.beams);
     }
     return result;
 }

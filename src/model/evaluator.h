@@ -1,7 +1,8 @@
-// Evaluates a model, in batches. Three kinds: native (shipped models, C++ made from their GLSL), GL (any model),
-// measured (a table).
+// Evaluates a model, in batches. Native (shipped models, C++ made from their GLSL), GL (any model), measured (a table),
+// and sums of these.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -38,6 +39,7 @@ public:
 
 enum class Precision { single_, double_ };
 
+/// A sum has one where each part has, or is measured.
 bool hasNativeEvaluator(const Model& model);
 
 /// Requires hasNativeEvaluator(model).
@@ -49,5 +51,12 @@ std::unique_ptr<Evaluator> makeGlEvaluator(const Model& model, gl::Context& cont
 
 /// Requires model.measured.
 std::unique_ptr<Evaluator> makeMeasuredEvaluator(const Model& model);
+
+/// Makes the evaluator of one part of a sum.
+using PartEvaluator = std::function<std::unique_ptr<Evaluator>(const Model& part)>;
+
+/// Adds what the parts' evaluators return. Requires model.parts. The evaluators above make this for a sum, with tables
+/// for its measured parts.
+std::unique_ptr<Evaluator> makeSumEvaluator(const Model& model, const PartEvaluator& make);
 
 }  // namespace searchlight

@@ -122,6 +122,10 @@ private:
 }  // namespace
 
 std::unique_ptr<Evaluator> makeGlEvaluator(const Model& model, gl::Context& context) {
+    if (!model.parts.empty())
+        return makeSumEvaluator(model, [&](const Model& part) {
+            return part.measured ? makeMeasuredEvaluator(part) : makeGlEvaluator(part, context);
+        });
     return std::make_unique<GlEvaluator>(model, context);
 }
 

@@ -41,18 +41,30 @@ Medium mediumOf(Rgb s, Rgb sigma_tp, const InversionTarget& target) {
     return medium;
 }
 
+// sigma_t' from ld = 1/sigma_tr, [Bitterli2013] Eq. 3.3; with Grosjean's D sigma_tr is smaller by sqrt(2 -
+// alpha').
+double reducedExtinction(double s, double ld_mm, bool grosjean) {
+    return (grosjean ? std::sqrt(1 + s * s) : 1) / (ld_mm * std::sqrt(3.0) * s);
+}
+
+Rgb reducedExtinction(Rgb s, const Model& model, const InversionTarget& target) {
+    Rgb sigma_tp;
+    for (int c = 0; c < Rgb::channels; ++c) sigma_tp[c] = reducedExtinction(s[c], target.ld_mm[c], model.file.grosjean);
+    return sigma_tp;
+}
+
 // Total reflectance of the three channels at s.
 using Reflectance = std::function<Rgb(Rgb s)>;
 
 Reflectance reflectanceOf(Evaluator& evaluator, const Model& model, const ParamValues& parameters,
                           const InversionTarget& target) {
-    const Rgb unit{1, 1, 1};
-    if (!model.measured && model.file.diffuse_reflectance.present()) {
-        evaluator.set(mediumOf(Rgb{0.5, 0.5, 0.5}, unit, target), parameters);
+    if (hasDiffuseReflectance(model)) {
+        evaluator.set(mediumOf(Rgb{0.5, 0.5, 0.5}, {1, 1, 1}, target), parameters);
         return [&evaluator](Rgb s) { return evaluator.diffuseReflectance({alphaOf(s.r), alphaOf(s.g), alphaOf(s.b)}); };
     }
-    return [&evaluator, &model, &parameters, &target, unit](Rgb s) {
-        const Medium medium = mediumOf(s, unit, target);
+    return [&evaluator, &model, &parameters, &target](Rgb s) {
+        // The medium that has this ld: a model may have lengths of its own, such as the thickness of a slab.
+        const Medium medium = mediumOf(s, reducedExtinction(s, model, target), target);
         evaluator.set(medium, parameters);
         return totalRd(evaluator, model, medium);
     };
@@ -86,12 +98,6 @@ struct Search {
     }
 };
 
-// sigma_t' from ld = 1/sigma_tr, [Bitterli2013] Eq. 3.3; with Grosjean's D sigma_tr is smaller by sqrt(2 -
-// alpha').
-double reducedExtinction(double s, double ld_mm, bool grosjean) {
-    return (grosjean ? std::sqrt(1 + s * s) : 1) / (ld_mm * std::sqrt(3.0) * s);
-}
-
 }  // namespace
 
 Inversion invert(Evaluator& evaluator, const Model& model, const ParamValues& parameters,
@@ -122,19 +128,17 @@ Inversion invert(Evaluator& evaluator, const Model& model, const ParamValues& pa
 
     Inversion result;
     const Rgb s = 0.5 * (low + high);
-    Rgb sigma_tp;
     for (int c = 0; c < Rgb::channels; ++c) {
-        sigma_tp[c] = reducedExtinction(s[c], target.ld_mm[c], model.file.grosjean);
         result.alpha_prime[c] = alphaOf(s[c]);
         const auto [min, max] = std::ranges::minmax_element(search.R, {}, [c](const Rgb& value) { return value[c]; });
         result.reachable_min[c] = (*min)[c];
         result.reachable_max[c] = (*max)[c];
     }
-    result.medium = mediumOf(s, sigma_tp, target);
+    result.medium = mediumOf(s, reducedExtinction(s, model, target), target);
     result.achieved = reflectance(s);
     reached.resize(static_cast<std::size_t>(target.channels));
     result.reached = std::move(reached);
-    result.from_profile = model.measured || !model.file.diffuse_reflectance.present();
+    result.from_profile = !hasDiffuseReflectance(model);
     result.mean_free_path = model.file.grosjean ? "grosjean" : "classical";
     return result;
 }

@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "base/embedded.h"
 #include "base/error.h"
 #include "base/files.h"
 #include "language/tokens.h"
 #include "model/measured_file.h"
+#include "model/sum_model.h"
 
 namespace searchlight {
 
@@ -34,11 +37,17 @@ bool isPath(std::string_view text) { return text.find_first_of("/\\.") != std::s
 }  // namespace
 
 bool readsMedium(const Model& model) {
+    if (!model.parts.empty()) return std::ranges::any_of(model.parts, readsMedium);
     for (const BssrdfSection* section : {&model.file.initializer, &model.file.shader})
         for (const Token& token : tokenize(section->text, section->first_line))
             if (token.text == "SigmaA" || token.text == "SigmaS" || token.text == "G" || token.text == "IOR")
                 return true;
     return false;
+}
+
+bool hasDiffuseReflectance(const Model& model) {
+    if (!model.parts.empty()) return std::ranges::all_of(model.parts, hasDiffuseReflectance);
+    return model.file.diffuse_reflectance.present();
 }
 
 const std::vector<Model>& shippedModels() {
@@ -52,7 +61,9 @@ const std::vector<Model>& shippedModels() {
     return models;
 }
 
-Model loadModel(std::string_view id_or_path) {
+namespace {
+
+Model loadOne(std::string_view id_or_path) {
     if (isPath(id_or_path)) {
         const std::string text = readFile(id_or_path);
         if (id_or_path.ends_with(ending)) return parseModel(text, id_or_path);
@@ -69,6 +80,14 @@ Model loadModel(std::string_view id_or_path) {
         ids.push_back(model.id);
     }
     throw unknownName(ErrorKind::usage, "model", id_or_path, ids);
+}
+
+}  // namespace
+
+Model loadModel(std::string_view name) {
+    std::vector<Model> parts;
+    for (const std::string& part : partNames(name)) parts.push_back(loadOne(part));
+    return parts.size() == 1 ? std::move(parts.front()) : sumOf(std::move(parts));
 }
 
 }  // namespace searchlight

@@ -1,4 +1,4 @@
-// A BSSRDF model, analytic (a .bssrdf file) or measured (a table of R_d over r).
+// A BSSRDF model: analytic (a .bssrdf file), measured (a table of R_d over r), or a sum of such models.
 #pragma once
 
 #include <string>
@@ -19,20 +19,25 @@ struct Query {
 
 struct Model {
     std::string id;        ///< "dipole"; for a file, its stem
-    BssrdfFile file;       ///< of a measured model: title, attributes (radial no_wi no_wo) and nothing else
-    bool shipped = false;  ///< its text is one of the embedded models, so that a native evaluator exists
+    BssrdfFile file;       ///< of a measured model and of a sum: what a file says about itself, and no GLSL
+    bool shipped = false;  ///< its text, or that of every part, is an embedded model's: a native evaluator exists
     bool measured = false;
-    Profile profile;  ///< measured only, per transmitted flux
+    Profile profile;           ///< measured only, per transmitted flux
+    std::vector<Model> parts;  ///< of a sum (model/sum_model.h), none of them a sum; else empty
 };
 
 /// Whether the model's value can depend on the medium: false for measured profiles and for fits in mm.
 bool readsMedium(const Model& model);
 
+/// Whether an evaluator of it answers diffuseReflectance(): a sum does where all of its parts do.
+bool hasDiffuseReflectance(const Model& model);
+
 /// The models inside the executable, in menu order.
 const std::vector<Model>& shippedModels();
 
 /// A shipped id ("better_dipole"), or a path to a .bssrdf file or to a measured .csv profile (a path has a '/' or
-/// an ending). Throws Error: unknown id with the nearest ones, or what is wrong with the file.
-Model loadModel(std::string_view id_or_path);
+/// an ending), or several of these with '+' between them: their sum. Throws Error: unknown id with the nearest ones, or
+/// what is wrong with the file or the sum.
+Model loadModel(std::string_view name);
 
 }  // namespace searchlight

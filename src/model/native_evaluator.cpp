@@ -25,9 +25,16 @@ PortableLibrary shippedPhysics() {
 
 }  // namespace
 
-bool hasNativeEvaluator(const Model& model) { return findNative(model) != nullptr; }
+bool hasNativeEvaluator(const Model& model) {
+    const auto has = [](const Model& part) { return part.measured || findNative(part); };
+    return model.parts.empty() ? findNative(model) != nullptr : std::ranges::all_of(model.parts, has);
+}
 
 std::unique_ptr<Evaluator> makeNativeEvaluator(const Model& model, Precision precision) {
+    if (!model.parts.empty())
+        return makeSumEvaluator(model, [&](const Model& part) {
+            return part.measured ? makeMeasuredEvaluator(part) : makeNativeEvaluator(part, precision);
+        });
     const native::NativeModel* native = findNative(model);
     assert(native);
     return native->make(model, precision);

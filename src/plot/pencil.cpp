@@ -25,20 +25,6 @@ struct ChannelLook {
 constexpr std::array<ChannelLook, 3> rgb_looks{
     {{PlotChannel::red, "red", 3}, {PlotChannel::green, "green", 2}, {PlotChannel::blue, "blue", 0}}};
 
-constexpr std::string_view channelName(PlotChannel channel) {
-    return channel == PlotChannel::luminance ? "luminance" : rgb_looks[static_cast<size_t>(channel)].name;
-}
-
-double pick(const Rgb& value, PlotChannel channel) {
-    return channel == PlotChannel::luminance ? luminance(value) : value[static_cast<int>(channel)];
-}
-
-// Channels are walked independently, so their errors add in quadrature.
-double pickError(const Rgb& error, PlotChannel channel) {
-    return channel == PlotChannel::luminance ? std::hypot(0.2126 * error.r, 0.7152 * error.g, 0.0722 * error.b)
-                                             : error[static_cast<int>(channel)];
-}
-
 double radiusFactor(double x_mm, int power) { return std::pow(std::abs(x_mm), power); }
 
 void checkOptions(const PencilOptions& options) {

@@ -7,6 +7,7 @@
 
 #include "base/figure.h"
 #include "base/vec.h"
+#include "plot/channel.h"
 
 namespace searchlight {
 
@@ -25,8 +26,6 @@ struct PencilReference {
     std::vector<double> edges_mm;
     std::vector<Rgb> Rd, standard_error;  ///< n values for n + 1 edges
 };
-
-enum class PlotChannel { red, green, blue, luminance };
 
 struct PencilOptions {
     PlotChannel channel = PlotChannel::red;

@@ -24,15 +24,13 @@ class Painter {
 public:
     Painter(const View& view, const Scene& scene, const Object& object, const RayScene* rays,
             const BackgroundOptions& options, Observer& observer)
-        : view_(view),
-          scene_(scene),
-          object_(object),
-          rays_(rays),
-          options_(options),
-          observer_(observer),
-          image_(view.width, view.height) {}
+        : view_(view), scene_(scene), object_(object), rays_(rays), options_(options), observer_(observer) {}
 
     Image run(const VisibleSurface& visible) {
+        const bool surrounded = std::ranges::any_of(
+            scene_.lights, [](const Light& light) { return std::holds_alternative<EnvironmentLight>(light); });
+        if (!scene_.ground && !scene_.backdrop && !surrounded) return {};
+        image_ = Image(view_.width, view_.height);
         open_.assign(image_.pixels.size(), 1);
         for (std::size_t i = 0; i < visible.pixels.size(); ++i) open_[visible.pixels[i]] -= visible.coverage[i];
         fillSky();

@@ -84,9 +84,13 @@ Model modelOf(const BrdfFile& file) {
 
 }  // namespace
 
-BrdfEvaluator::BrdfEvaluator(const BrdfFile& file, gl::Context& context)
-    : evaluator_(makeGlEvaluator(modelOf(file), context)) {
-    evaluator_->set(Medium(), {});
+BrdfEvaluator::BrdfEvaluator(const BrdfFile& file, const ParamValues& parameters, gl::Context& context) {
+    const std::vector<ParamValue> values = brdfValues(file, parameters);
+    const Model model = modelOf(file);
+    ParamValues renamed;
+    for (std::size_t i = 0; i < values.size(); ++i) renamed[model.file.parameters[i].name] = values[i];
+    evaluator_ = makeGlEvaluator(model, context);
+    evaluator_->set(Medium(), renamed);
 }
 
 void BrdfEvaluator::evaluate(std::span<const BrdfQuery> queries, std::span<Rgb> values) {

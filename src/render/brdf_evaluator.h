@@ -22,9 +22,9 @@ struct BrdfQuery {
 /// Not thread-safe.
 class BrdfEvaluator {
 public:
-    /// Compiles the file, its parameters at their defaults; throws an input Error with file, line and column when it
-    /// does not compile. `context` outlives the evaluator.
-    BrdfEvaluator(const BrdfFile& file, gl::Context& context);
+    /// Compiles the file and sets its parameters as brdfValues() has them; throws what that throws, and an input Error
+    /// with file, line and column when it does not compile. `context` outlives the evaluator.
+    BrdfEvaluator(const BrdfFile& file, const ParamValues& parameters, gl::Context& context);
 
     /// What BRDF() returns, 1/sr. As many values as queries. Throws an input Error for a loop that does not end.
     void evaluate(std::span<const BrdfQuery> queries, std::span<Rgb> values);

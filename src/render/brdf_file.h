@@ -20,4 +20,9 @@ struct BrdfFile {
 /// sections of other names are passed over. Throws an input Error with file, line and column.
 BrdfFile parseBrdf(std::string_view text, std::string_view path);
 
+/// A value for each of the file's parameters, in their order: from `given`, which are as a scene has them, else the
+/// default. Throws a usage Error for a value that does not fit, and for a name that the file does not have, with the
+/// nearest.
+std::vector<ParamValue> brdfValues(const BrdfFile& file, const ParamValues& given);
+
 }  // namespace searchlight

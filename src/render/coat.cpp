@@ -80,12 +80,12 @@ struct Asked {
     Rgb weight;
 };
 
-void coatOfFile(const CoatSamples& samples, const std::string& path, const CoatLights& lights,
-                const CoatOptions& options, Observer& observer, std::vector<Rgbf>& radiance) {
-    const BrdfFile file = parseBrdf(readFile(path), path);
+void coatOfFile(const CoatSamples& samples, const Coat& coat, const CoatLights& lights, const CoatOptions& options,
+                Observer& observer, std::vector<Rgbf>& radiance) {
+    const BrdfFile file = parseBrdf(readFile(coat.brdf), coat.brdf);
     if (!options.context)
-        throw deviceError("a .brdf file is evaluated on OpenGL, which is not to be had here").at(path);
-    BrdfEvaluator evaluator(file, *options.context);
+        throw deviceError("a .brdf file is evaluated on OpenGL, which is not to be had here").at(coat.brdf);
+    BrdfEvaluator evaluator(file, coat.parameters, *options.context);
     const CoatChoice choice{cosineSample, [](Vec3 wi) { return std::max(0.0, wi.z) / std::numbers::pi; }};
     // Some 1e5 queries at a time: memory stays small and a cancelled run ends soon.
     constexpr std::size_t piece = 2048;
@@ -130,7 +130,7 @@ std::vector<Rgbf> coatRadiance(const CoatSamples& samples, const Scene& scene, c
     if (scene.coat->brdf.empty())
         coatOfDielectric(samples, scene.coat->roughness, lights, options, observer, radiance);
     else
-        coatOfFile(samples, scene.coat->brdf, lights, options, observer, radiance);
+        coatOfFile(samples, *scene.coat, lights, options, observer, radiance);
     return radiance;
 }
 

@@ -21,8 +21,6 @@ constexpr std::size_t points_per_leaf = 8;
 constexpr std::size_t receivers_per_group = 8;
 // A node is evaluated four times: so few points are no more work, and exact.
 constexpr std::size_t few_points = 4;
-// Mean of unit vectors over half a sphere: where they differ by more, their mean and slopes say nothing.
-constexpr double least_mean = 0.5;
 // Queries in a batch: 512 stay in the second-level cache; a lone evaluator has threads of its own for many.
 constexpr std::size_t small_batch = 512, large_batch = 65'536;
 
@@ -155,11 +153,8 @@ void DirectionalSum::setLight(const Irradiance& irradiance, bool reads_wi) {
 void DirectionalSum::addBeam(std::vector<ModelPoint> points) {
     Beam& beam = beams_.emplace_back();
     beam.nodes = modelNodes(tree_, points, threads_);
-    for (std::size_t i = 0; i < beam.nodes.size(); ++i) {
-        const ModelNode& node = beam.nodes[i];
-        const double shorter = std::min(length(toDouble(node.normal)), length(toDouble(node.wi)));
-        if (node.flux != Rgbf{} && shorter < least_mean) folded_[i] = 1;
-    }
+    for (std::size_t i = 0; i < beam.nodes.size(); ++i)
+        if (isFolded(beam.nodes[i])) folded_[i] = 1;
     for (const std::uint32_t i : tree_.order) beam.points.push_back(points[i]);
 }
 

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "base/observer.h"
 #include "base/vec.h"
 #include "model/profile.h"
 #include "scene/point_cloud.h"
@@ -76,13 +77,29 @@ private:
 };
 
 /// How fine the trees are opened, found by a pilot on some of the receivers. Kept by the caller from one sum to the
-/// next, it saves the pilot where points, light, table, receivers and error are the same, and its first guess
-/// elsewhere.
+/// next, it saves the pilot: where points, light, table, receivers and error are the same it is used as it is;
+/// elsewhere the sum is taken with it, judged on a sample, and taken again where the error was not kept.
 struct SumCalibration {
     std::uint64_t key = 0;   ///< of what it was found for; 0: nothing yet
     Rgb opening;             ///< the parameter of the acceptance test, per channel
+    Rgb next;                ///< what to begin with when something has changed; 0: what a pilot finds
     double error_bound = 0;  ///< as in SumStatistics
     double largest_error_bound = 0;
+};
+
+/// What a sum needs while it is taken, of use again for the next: memory and rules of opening.
+class SumMemory {
+public:
+    SumMemory();
+    ~SumMemory();
+    SumMemory(SumMemory&&) noexcept;
+    SumMemory& operator=(SumMemory&&) noexcept;
+
+    struct Impl;
+    Impl& impl() const { return *impl_; }
+
+private:
+    std::unique_ptr<Impl> impl_;
 };
 
 struct SumOptions {
@@ -91,6 +108,8 @@ struct SumOptions {
     double error = 0.005;
     int threads = 0;                        ///< 0: all
     SumCalibration* calibration = nullptr;  ///< read and written where given
+    SumMemory* memory = nullptr;            ///< used where given, by one sum at a time
+    Observer* observer = nullptr;           ///< asked some hundred times a sum whether to stop: interruptedError()
 };
 
 struct SumStatistics {
@@ -99,7 +118,8 @@ struct SumStatistics {
     double error_bound = 0;  ///< upper confidence of the relative RMSE, worst channel; at most SumOptions::error
     /// Of the largest error of a receiver, relative to the RMS exitance: extrapolated from a sample, so an estimate.
     double largest_error_bound = 0;
-    double tree_ms = 0, pilot_ms = 0, sum_ms = 0;
+    double tree_ms = 0, pilot_ms = 0, sum_ms = 0;  ///< pilot: or what judged the sum afterwards
+    int taken = 0;            ///< how often the sum was taken: once, unless what was kept did not keep the error
     bool calibrated = false;  ///< false: the calibration that was given was used as it is
 };
 
@@ -107,6 +127,10 @@ struct SumStatistics {
 /// depend on the number of threads.
 std::vector<Rgbf> sumExitance(const PointTree& points, const RadialTable& table, const ReceiverTree& receivers,
                               const SumOptions& options, SumStatistics* statistics = nullptr);
+
+/// The same into memory that is used again.
+void sumExitance(const PointTree& points, const RadialTable& table, const ReceiverTree& receivers,
+                 const SumOptions& options, std::vector<Rgbf>& exitance, SumStatistics* statistics = nullptr);
 
 /// The same for receivers that are used once.
 std::vector<Rgbf> sumExitance(const PointTree& points, const RadialTable& table, std::span<const Vec3f> receivers,

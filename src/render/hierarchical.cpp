@@ -23,14 +23,16 @@ public:
         if (new_points || now.material != seen_.material) table_.emplace(*input.profile, points_->meanArea());
         if (!receivers_ || now.view != seen_.view) receivers_.emplace(input.visible->positions, input.threads);
         seen_ = now;
-        options_ = {
-            .error = std::get<double>(options.at("error")), .threads = input.threads, .calibration = &calibration_};
+        options_ = {.error = std::get<double>(options.at("error")),
+                    .threads = input.threads,
+                    .calibration = &calibration_,
+                    .memory = &memory_};
         tree_ms_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
     }
 
-    bool step(Observer&) override {
-        exitance_ = receivers_->size() > 0 ? sumExitance(*points_, *table_, *receivers_, options_, &statistics_)
-                                           : std::vector<Rgbf>{};
+    bool step(Observer& observer) override {
+        options_.observer = &observer;
+        sumExitance(*points_, *table_, *receivers_, options_, exitance_, &statistics_);
         return true;
     }
 
@@ -51,6 +53,7 @@ private:
     RenderInput::Versions seen_;
     SumOptions options_;
     SumCalibration calibration_;
+    SumMemory memory_;
     SumStatistics statistics_;
     double tree_ms_ = 0;
     std::vector<Rgbf> exitance_;

@@ -20,7 +20,8 @@ void main() {
         vec4 source = texelFetch(point_spheres, node);
         // To the nearest receiver that there may be: an expansion about the centre alone leaves outliers.
         float distance = max(0.0, length(sphere.xyz - source.xyz) - sphere.w);
-        bool open = !mayExpand(distance * distance + table_offset, distance, source.w);
+        // A radius below 0 marks a node whose normals or directions cancel.
+        bool open = source.w < 0.0 || !mayExpand(distance * distance + table_offset, distance, source.w);
         if (open && node < leaf_begin) {
             node *= 2;
             continue;

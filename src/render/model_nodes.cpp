@@ -107,6 +107,12 @@ std::vector<ModelPoint> modelPoints(const PointCloud& points, std::span<const Ve
     return made;
 }
 
+bool isFolded(const ModelNode& node) {
+    // The mean length of unit vectors that are spread over half a sphere.
+    constexpr double least_mean = 0.5;
+    return node.flux != Rgbf{} && std::min(length(toDouble(node.normal)), length(toDouble(node.wi))) < least_mean;
+}
+
 double leastDistance(double area_mm2) { return 0.5 * std::sqrt(area_mm2 / std::numbers::pi); }
 
 Vec3 pointOfEntry(Vec3 position, Vec3 normal, double least_mm, Vec3 xo) {

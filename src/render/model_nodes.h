@@ -40,6 +40,10 @@ struct ModelNode {
     std::array<Vec3f, 2> wi_offsets;
 };
 
+/// Normals or directions differ so much that their mean and slopes say nothing: such a node does not stand for its
+/// points at any distance, as that of the two sides of a thin sheet.
+bool isFolded(const ModelNode& node);
+
 /// One per node of the tree (0 is none), from one point per point of the tree.
 std::vector<ModelNode> modelNodes(const HeapTree& tree, std::span<const ModelPoint> points, int threads);
 

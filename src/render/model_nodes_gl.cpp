@@ -6,8 +6,7 @@
 
 namespace searchlight {
 
-std::vector<std::array<float, 4>> modelNodesGl(const HeapTree& tree, std::span<const ModelPoint> points, int threads) {
-    const std::vector<ModelNode> nodes = modelNodes(tree, points, threads);
+std::vector<std::array<float, 4>> modelNodesGl(std::span<const ModelNode> nodes, int threads) {
     std::vector<std::array<float, 4>> texels(8 * nodes.size());
     constexpr std::size_t grain = 1024;
     parallelFor((nodes.size() + grain - 1) / grain, threads, [&](std::size_t task) {

@@ -11,6 +11,6 @@ namespace searchlight {
 
 /// Eight texels a node, for the ten vectors of a ModelNode in a row: five in the first four, but for one component, and
 /// five in the rest. The flux is texel 3.
-std::vector<std::array<float, 4>> modelNodesGl(const HeapTree& tree, std::span<const ModelPoint> points, int threads);
+std::vector<std::array<float, 4>> modelNodesGl(std::span<const ModelNode> nodes, int threads);
 
 }  // namespace searchlight

@@ -1,5 +1,7 @@
 #include "render/model_sum_gl.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 #include <cassert>
@@ -7,7 +9,9 @@
 #include <numeric>
 
 #include "base/embedded.h"
+#include "base/error.h"
 #include "gl/context.h"
+#include "model/sum_model.h"
 #include "render/radial_table_gl.h"
 
 namespace searchlight {
@@ -42,33 +46,48 @@ ModelSumGl::ModelSumGl(gl::Context& context)
       leaf_begins_(context),
       counters_(context, 3 * sizeof(unsigned)),
       lists_(context),
-      state_(context, 4),
       values_(context),
       direct_values_(context),
       chosen_(context),
       budget_(loopBudget(context.info())),
       receiver_data_(context) {}
 
+ModelSumGl::Part::Part(gl::Context& context, const BssrdfFile& file_, const LoopBudget& budget)
+    : file(file_), evaluate(context, evaluateSource(file, budget)), state(context, 4) {
+    if (!file.initializer.present()) return;
+    init.emplace(context, modelShader(file, GlStage::init, budget));
+    state.reserve(std::max(init->blockSize("sl_State"), evaluate.blockSize("sl_State")));
+}
+
+bool ModelSumGl::knows(std::span<const Model> parts) const {
+    return std::ranges::equal(parts_, parts, [](const std::unique_ptr<Part>& known, const Model& part) {
+        return known->file.path == part.file.path && known->file.shader.text == part.file.shader.text &&
+               known->file.initializer.text == part.file.initializer.text;
+    });
+}
+
 void ModelSumGl::setModel(const Model& model, const Medium& medium, const ParamValues& parameters,
                           const Profile& mean) {
-    const bool known = evaluate_ && file_.path == model.file.path && file_.shader.text == model.file.shader.text &&
-                       file_.initializer.text == model.file.initializer.text;
-    if (!known) {
-        evaluate_.reset();
-        init_.reset();
-        file_ = model.file;
-        if (file_.initializer.present()) init_.emplace(context_, modelShader(file_, GlStage::init, budget_));
-        evaluate_.emplace(context_, evaluateSource(file_, budget_));
-        if (init_) state_.reserve(std::max(init_->blockSize("sl_State"), evaluate_->blockSize("sl_State")));
+    const std::span<const Model> parts = model.parts.empty() ? std::span(&model, 1) : std::span(model.parts);
+    for (const Model& part : parts)
+        if (part.measured)
+            throw usageError(fmt::format("OpenGL cannot add the measured '{}' to models that read directions", part.id),
+                             "--backend cpu can");
+    if (!knows(parts)) {
+        parts_.clear();
+        for (const Model& part : parts) parts_.push_back(std::make_unique<Part>(context_, part.file, budget_));
     }
-    setModelUniforms(*evaluate_, file_, medium, parameters);
-    evaluate_->set("sl_scatters", Vec3{medium.scatters(0) ? 1.0 : 0.0, medium.scatters(1) ? 1.0 : 0.0,
-                                       medium.scatters(2) ? 1.0 : 0.0});
-    if (init_) {
-        setModelUniforms(*init_, file_, medium, parameters);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        Part& part = *parts_[i];
+        const ParamValues own = model.parts.empty() ? parameters : partParameters(model, parts[i], parameters);
+        setModelUniforms(part.evaluate, part.file, medium, own);
+        part.evaluate.set("sl_scatters", Vec3{medium.scatters(0) ? 1.0 : 0.0, medium.scatters(1) ? 1.0 : 0.0,
+                                              medium.scatters(2) ? 1.0 : 0.0});
+        if (!part.init) continue;
+        setModelUniforms(*part.init, part.file, medium, own);
         direct_values_.reserve(4 * sizeof(float));
-        init_->dispatch(1, {{GlBinding::state, state_}, {GlBinding::values, direct_values_}});
-        checkLoops(direct_values_);
+        part.init->dispatch(1, {{GlBinding::state, part.state}, {GlBinding::values, direct_values_}});
+        checkLoops(part, direct_values_);
     }
     const RadialTableGl table =
         makeRadialTableGl(RadialKernel(mean, area_mm2_ / static_cast<double>(points_.positions.size())), area_mm2_);
@@ -84,20 +103,27 @@ void ModelSumGl::setPoints(const PointCloud& points, int threads) {
     points_ = points;
     area_mm2_ = std::accumulate(points.areas.begin(), points.areas.end(), 0.0);
     tree_ = buildHeapTree(points_.positions, points_per_leaf, threads);
-    spheres_.upload(context_, tree_.spheres);
     fill<int>(leaf_begins_, begins(tree_));
     beams_.clear();
 }
 
 void ModelSumGl::setLight(const Irradiance& irradiance, bool reads_wi, int threads) {
     beams_.clear();
-    if (!reads_wi) return addBeam(modelPoints(points_, points_.normals, irradiance.transmitted), threads);
-    for (const searchlight::Beam& beam : irradiance.beams) addBeam(modelPoints(points_, beam.wi, beam.flux), threads);
+    sphere_texels_ = tree_.spheres;
+    if (!reads_wi)
+        addBeam(modelPoints(points_, points_.normals, irradiance.transmitted), threads);
+    else
+        for (const searchlight::Beam& beam : irradiance.beams)
+            addBeam(modelPoints(points_, beam.wi, beam.flux), threads);
+    spheres_.upload(context_, sphere_texels_);
 }
 
 void ModelSumGl::addBeam(std::span<const ModelPoint> points, int threads) {
     auto beam = std::make_unique<Beam>(context_);
-    beam->nodes.upload(context_, modelNodesGl(tree_, points, threads));
+    const std::vector<ModelNode> nodes = modelNodes(tree_, points, threads);
+    beam->nodes.upload(context_, modelNodesGl(nodes, threads));
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+        if (isFolded(nodes[i])) sphere_texels_[i][3] = -1;
     std::vector<Texel> texels;
     texels.reserve(4 * points.size());
     for (const std::uint32_t i : tree_.order) {
@@ -154,29 +180,29 @@ unsigned ModelSumGl::makeLists(const Chains& chains, double error, Work& work) {
     }
 }
 
-void ModelSumGl::dispatch(std::size_t invocations, const gl::Buffer& receivers, const gl::Buffer& values) {
-    evaluate_->set("sl_count", static_cast<int>(invocations));
-    evaluate_->set("sl_eye", eye_);
+void ModelSumGl::dispatch(Part& part, std::size_t invocations, const gl::Buffer& receivers, const gl::Buffer& values) {
+    part.evaluate.set("sl_count", static_cast<int>(invocations));
+    part.evaluate.set("sl_eye", eye_);
     bool first = true;
     for (const auto& beam : beams_) {
         // Another part of the same lists adds to what is there.
-        if (!first) evaluate_->set("sl_first", 0);
+        if (!first) part.evaluate.set("sl_first", 0);
         first = false;
-        evaluate_->dispatch(workGroups(invocations),
-                            {{GlBinding::state, state_},
-                             {1, lists_},
-                             {GlBinding::values, values},
-                             {3, receivers},
-                             {4, group_begins_},
-                             {5, leaf_begins_}},
-                            {{0, *beam->nodes.texture}, {1, *beam->points.texture}});
+        part.evaluate.dispatch(workGroups(invocations),
+                               {{GlBinding::state, part.state},
+                                {1, lists_},
+                                {GlBinding::values, values},
+                                {3, receivers},
+                                {4, group_begins_},
+                                {5, leaf_begins_}},
+                               {{0, *beam->nodes.texture}, {1, *beam->points.texture}});
     }
 }
 
-void ModelSumGl::checkLoops(const gl::Buffer& values) {
+void ModelSumGl::checkLoops(const Part& part, const gl::Buffer& values) {
     int failed = 0;
     values.download(std::span(&failed, 1));
-    if (failed != 0) throw loopError(file_, budget_, failed);
+    if (failed != 0) throw loopError(part.file, budget_, failed);
 }
 
 SumGl::Work ModelSumGl::run(const Chains& chains, double error) {
@@ -185,17 +211,19 @@ SumGl::Work ModelSumGl::run(const Chains& chains, double error) {
     const auto invocations = static_cast<std::size_t>(slots() * groupsOf(chains, receiver_tree_.depth));
     constexpr int good = 0;
     values_.upload(std::span(&good, 1));
-    evaluate_->set("sl_direct", 0);
-    evaluate_->set("sl_slots", slots());
-    evaluate_->set("sl_list_size", list_size_);
-    const unsigned part = budget_.driver_cuts ? counted_list_part : list_part;
-    for (unsigned from = 0; from < longest; from += part) {
-        evaluate_->set("sl_from", static_cast<int>(from));
-        evaluate_->set("sl_to", static_cast<int>(from + part));
-        evaluate_->set("sl_first", from == 0 ? 1 : 0);
-        dispatch(invocations, receiver_data_, values_);
+    const unsigned step = budget_.driver_cuts ? counted_list_part : list_part;
+    for (const auto& part : parts_) {
+        part->evaluate.set("sl_direct", 0);
+        part->evaluate.set("sl_slots", slots());
+        part->evaluate.set("sl_list_size", list_size_);
+        for (unsigned from = 0; from < longest; from += step) {
+            part->evaluate.set("sl_from", static_cast<int>(from));
+            part->evaluate.set("sl_to", static_cast<int>(from + step));
+            part->evaluate.set("sl_first", from == 0 && part == parts_.front() ? 1 : 0);
+            dispatch(*part, invocations, receiver_data_, values_);
+        }
+        checkLoops(*part, values_);
     }
-    checkLoops(values_);
     return work;
 }
 
@@ -205,22 +233,24 @@ std::vector<Rgb> ModelSumGl::direct(std::span<const std::uint32_t> places) {
         for (std::size_t k = 0; k < 2; ++k) chosen.push_back(receivers_and_normals_[2 * place + k]);
     fill<Texel>(chosen_, chosen);
     const int leaves = 1 << tree_.depth;
-    const std::size_t parts = static_cast<std::size_t>((leaves + leaves_per_part - 1) / leaves_per_part);
-    std::vector<float> values(1 + 3 * parts * places.size());
+    const std::size_t slices = static_cast<std::size_t>((leaves + leaves_per_part - 1) / leaves_per_part);
+    std::vector<float> values(1 + 3 * slices * places.size());
     lists_.reserve(sizeof(int));
     direct_values_.reserve(values.size() * sizeof(float));
     constexpr int good = 0;
     direct_values_.upload(std::span(&good, 1));
-    evaluate_->set("sl_direct", static_cast<int>(places.size()));
-    evaluate_->set("sl_leaves", leaves);
-    evaluate_->set("sl_to", leaves_per_part);
-    evaluate_->set("sl_first", 1);
-    dispatch(parts * places.size(), chosen_, direct_values_);
-    checkLoops(direct_values_);
+    for (const auto& part : parts_) {
+        part->evaluate.set("sl_direct", static_cast<int>(places.size()));
+        part->evaluate.set("sl_leaves", leaves);
+        part->evaluate.set("sl_to", leaves_per_part);
+        part->evaluate.set("sl_first", part == parts_.front() ? 1 : 0);
+        dispatch(*part, slices * places.size(), chosen_, direct_values_);
+        checkLoops(*part, direct_values_);
+    }
     direct_values_.download<float>(values);
     std::vector<Rgb> sums(places.size());
     if (beams_.empty()) return sums;
-    for (std::size_t i = 0; i < parts * places.size(); ++i) {
+    for (std::size_t i = 0; i < slices * places.size(); ++i) {
         Rgb& sum = sums[i % places.size()];
         sum = sum + Rgb{values[1 + 3 * i], values[2 + 3 * i], values[3 + 3 * i]};
     }

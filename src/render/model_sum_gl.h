@@ -25,8 +25,9 @@ public:
     /// The context outlives the sum.
     explicit ModelSumGl(gl::Context& context);
 
-    /// Compiles the model, if it is another one, and sets its medium. `mean`: its azimuthal mean at normal incidence,
-    /// by which nodes are chosen. Requires points. Throws an input Error with the model's file, line and column.
+    /// Compiles the model, if it is another one, and sets its medium; a sum has a program for each part. `mean`: its
+    /// azimuthal mean at normal incidence, by which nodes are chosen. Requires points. Throws an input Error with the
+    /// model's file, line and column, and a usage Error for a sum with a measured part, of which there is no GLSL.
     void setModel(const Model& model, const Medium& medium, const ParamValues& parameters, const Profile& mean);
 
     /// At least one point, with normals and areas; all dark.
@@ -48,19 +49,29 @@ private:
         explicit Beam(gl::Context& context) : nodes(context), points(context) {}
     };
 
+    // A model, or one of those that are added.
+    struct Part {
+        BssrdfFile file;
+        std::optional<gl::Program> init;
+        gl::Program evaluate;
+        gl::Buffer state;
+        Part(gl::Context& context, const BssrdfFile& file, const LoopBudget& budget);
+    };
+
+    bool knows(std::span<const Model> parts) const;
     std::size_t receiversPerSlice() const override { return 512; }
     void addBeam(std::span<const ModelPoint> points, int threads);
     unsigned makeLists(const Chains& chains, double error, Work& work);  // returns the longest
-    void dispatch(std::size_t invocations, const gl::Buffer& receivers, const gl::Buffer& values);
-    void checkLoops(const gl::Buffer& values);
+    void dispatch(Part& part, std::size_t invocations, const gl::Buffer& receivers, const gl::Buffer& values);
+    void checkLoops(const Part& part, const gl::Buffer& values);
 
     gl::Program lists_pass_;
     TableGl radial_, spheres_;
-    gl::Buffer leaf_begins_, counters_, lists_, state_, values_, direct_values_, chosen_;
+    std::vector<std::array<float, 4>> sphere_texels_;  // of the points' tree; a radius below 0: folded in some beam
+    gl::Buffer leaf_begins_, counters_, lists_, values_, direct_values_, chosen_;
 
-    BssrdfFile file_;
     LoopBudget budget_;
-    std::optional<gl::Program> init_, evaluate_;
+    std::vector<std::unique_ptr<Part>> parts_;
 
     PointCloud points_;
     HeapTree tree_;

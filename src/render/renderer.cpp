@@ -10,9 +10,12 @@
 #include "base/error.h"
 #include "geometry/point_cache.h"
 #include "model/plane.h"
+#include "model/sum_model.h"
 #include "render/background.h"
 #include "render/coat.h"
 #include "render/shade.h"
+#include "render/stages_gl.h"
+#include "render/visible_raster.h"
 
 namespace searchlight {
 
@@ -39,6 +42,15 @@ std::string keyOf(const Scene& scene, Members... members) {
     return sceneJson(part);
 }
 
+constexpr std::size_t most_default_points = 800'000;
+
+// A transport mean free path of the densest channel apart.
+double wantedPointCount(double area_mm2, const Medium& medium) {
+    double densest = 0;
+    for (int c = 0; c < Rgb::channels; ++c) densest = std::max(densest, medium.sigmaTp()[c]);
+    return area_mm2 * densest * densest;
+}
+
 }  // namespace
 
 std::string_view stageName(Stage stage) {
@@ -48,16 +60,24 @@ std::string_view stageName(Stage stage) {
 }
 
 std::size_t defaultPointCount(double area_mm2, const Medium& medium) {
-    double mean_free_path = std::numeric_limits<double>::infinity();
-    for (int c = 0; c < Rgb::channels; ++c) mean_free_path = std::min(mean_free_path, 1 / medium.sigmaTp()[c]);
     std::size_t count = 100'000;
-    while (count < 800'000 && static_cast<double>(count) < area_mm2 / (mean_free_path * mean_free_path)) count *= 2;
+    while (count < most_default_points && static_cast<double>(count) < wantedPointCount(area_mm2, medium)) count *= 2;
     return count;
+}
+
+std::optional<std::string> noteOfFewPoints(double area_mm2, const Medium& medium) {
+    const double wanted = wantedPointCount(area_mm2, medium);
+    if (wanted <= most_default_points) return std::nullopt;
+    return fmt::format(
+        "There are {} points, the most that are chosen without asking: as close together as light travels there would "
+        "be {:.2g} million.",
+        most_default_points, 1e-6 * wanted);
 }
 
 struct Renderer::Impl {
     MaterialSource materials;
     gl::Context* context = nullptr;
+    std::optional<StagesGl> stages_gl;  // made when needed
     Scene scene;
     RenderSettings settings;
     RenderReport report;
@@ -69,8 +89,11 @@ struct Renderer::Impl {
     RenderMaterial material;
     std::optional<Profile> profile;
     PointCloud sampled;  // of a mesh; a cloud is its own points
+    LitPoints lit;       // the points as shadow rays see them, for every light
+    std::string lit_from, spacing_from;
     Irradiance irradiance;
     View view;
+    VisibleRaster raster;
     VisibleSurface visible;
     const TechniqueEntry* entry = nullptr;
     bool on_gl = false;
@@ -78,14 +101,20 @@ struct Renderer::Impl {
     bool final = false;
     std::uint64_t slices = 0;  // of the exitance: each makes a new picture
     Image background, picture;
+    std::vector<Rgbf> radiance;
     std::vector<Rgbf> coat;  // radiance per sample; empty without a coat
 
     StageReport& stage(Stage which) { return report.stages[static_cast<std::size_t>(which)]; }
     std::uint64_t runs(Stage which) { return stage(which).runs; }
 
-    /// Runs `body` unless the stage was made from the same key.
+    StagesGl& onGl() {
+        if (!stages_gl) stages_gl.emplace(*context);
+        return *stages_gl;
+    }
+
+    /// Runs `body` unless the stage was made from the same key. `gl`: where it runs.
     template <class Body>
-    void refresh(Stage which, const std::string& key, const Body& body) {
+    void refresh(Stage which, const std::string& key, const Body& body, bool gl = false) {
         std::string& made_from = keys[static_cast<std::size_t>(which)];
         if (made_from == key) return;
         made_from.clear();
@@ -93,6 +122,7 @@ struct Renderer::Impl {
         body();
         stage(which).ms += milliseconds(begin);
         ++stage(which).runs;
+        stage(which).gl = gl;
         made_from = key;
     }
 
@@ -106,11 +136,17 @@ struct Renderer::Impl {
         refresh(Stage::rays, fmt::format("{}", runs(Stage::object)), [&] { rays.emplace(object.mesh); });
     }
 
+    bool underNormalBeam() const {
+        const auto given = settings.technique_options.find(normal_beam_option);
+        return given != settings.technique_options.end() && std::get<bool>(given->second);
+    }
+
     void refreshMaterial() {
-        refresh(Stage::material, keyOf(scene, &Scene::material, &Scene::model), [&] {
+        const std::string key = fmt::format("{} {}", keyOf(scene, &Scene::material, &Scene::model), underNormalBeam());
+        refresh(Stage::material, key, [&] {
             material = materials(scene);
             profile.reset();
-            if (isRadial(material.model))
+            if (isRadial(material.model) || underNormalBeam())
                 profile = tabulate(*material.evaluator, material.model, material.medium).profile;
         });
     }
@@ -134,25 +170,45 @@ struct Renderer::Impl {
                                         .seed = settings.seed,
                                         .threads = settings.threads};
         const std::string key =
-            fmt::format("{} {} {} {} {} {} {}", runs(Stage::rays), runs(Stage::points), options.eta, options.beams,
-                        options.light_samples, options.seed, keyOf(scene, &Scene::lights));
-        refresh(Stage::irradiance, key, [&] {
-            irradiance =
-                computeIrradiance({points().positions, points().normals}, scene, object, &*rays, options, observer);
-        });
+            fmt::format("{} {} {} {} {} {} {} {}", settings.gl, runs(Stage::rays), runs(Stage::points), options.eta,
+                        options.beams, options.light_samples, options.seed, keyOf(scene, &Scene::lights));
+        const auto compute = [&] {
+            const SurfacePoints at{points().positions, points().normals};
+            if (settings.gl) {
+                irradiance = onGl().irradiance(at, runs(Stage::points) + runs(Stage::object), scene, object, *rays,
+                                               options, observer);
+                return;
+            }
+            const std::string of = fmt::format("{} {}", runs(Stage::rays), runs(Stage::points));
+            if (lit_from != of) {
+                lit_from.clear();
+                lit = prepareLitPoints(at, object, &*rays, options.normals, options.threads, observer);
+                lit_from = of;
+            }
+            irradiance = computeIrradiance(lit, scene, object, &*rays, options, observer);
+        };
+        refresh(Stage::irradiance, key, compute, settings.gl);
     }
 
     void refreshVisible(Observer& observer) {
         const int width = std::max(1, static_cast<int>(std::lround(settings.width * settings.preview)));
         const int height = std::max(1, static_cast<int>(std::lround(settings.height * settings.preview)));
-        const std::string key = fmt::format("{} {} {} {} {}", runs(Stage::rays), width, height, settings.edge_samples,
-                                            keyOf(scene, &Scene::camera));
-        refresh(Stage::visible, key, [&] {
+        const std::string key = fmt::format("{} {} {} {} {} {}", settings.gl, runs(Stage::rays), width, height,
+                                            settings.edge_samples, keyOf(scene, &Scene::camera));
+        const auto compute = [&] {
             report.camera = framedCamera(scene.camera, object, width, height);
             view = makeView(report.camera, object, width, height);
-            visible = traceVisible(view, object, *rays,
-                                   {.edge_samples = settings.edge_samples, .threads = settings.threads}, observer);
-        });
+            const TraceOptions options{.edge_samples = settings.edge_samples, .threads = settings.threads};
+            // Drawing takes as long as there are triangles, rays as long as there are pixels.
+            const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+            if (settings.gl)
+                visible = onGl().visible(view, object, runs(Stage::object), options, observer);
+            else if (object.mesh.triangles.size() <= pixels)
+                raster.find(view, object, options, observer, visible);
+            else
+                visible = traceVisible(view, object, *rays, options, observer);
+        };
+        refresh(Stage::visible, key, compute, settings.gl);
     }
 
     void startExitance(Observer& observer) {
@@ -168,7 +224,7 @@ struct Renderer::Impl {
             checkValue(param, options[param.name]);
             key += fmt::format(" {}", valueText(options[param.name]));
         }
-        refresh(Stage::exitance, key, [&] {
+        const auto begin = [&] {
             if (entry != &wanted || on_gl != settings.gl) technique = wanted.make(settings.gl ? context : nullptr);
             entry = &wanted;
             on_gl = settings.gl;
@@ -189,10 +245,13 @@ struct Renderer::Impl {
                                                  .view = runs(Stage::visible),
                                                  .material = runs(Stage::material)}};
             technique->start(input, options, observer);
-        });
+        };
+        refresh(Stage::exitance, key, begin, settings.gl && wanted.gl);
     }
 
     void start(Observer& observer) {
+        if (settings.gl && !context)
+            throw deviceError("OpenGL is asked for, and this renderer was made without a context");
         for (StageReport& each : report.stages) each.ms = 0;
         refreshObject();
         refreshMaterial();
@@ -230,7 +289,7 @@ struct Renderer::Impl {
         if (scene.coat)
             key = fmt::format("{} {} {} {}", runs(Stage::visible), settings.seed, material.medium.eta,
                               keyOf(scene, &Scene::lights, &Scene::coat));
-        refresh(Stage::coat, key, [&] {
+        const auto compute = [&] {
             coat.clear();
             if (!scene.coat) return;
             std::vector<Vec3f> wo;
@@ -240,17 +299,18 @@ struct Renderer::Impl {
                 {visible.positions, visible.normals, visible.geometric_normals, wo}, scene, object, &*rays,
                 {.eta = material.medium.eta, .seed = settings.seed, .threads = settings.threads, .context = context},
                 observer);
-        });
+        };
+        // Lights are gathered by rays in any case; a .brdf file is evaluated on OpenGL.
+        refresh(Stage::coat, key, compute, scene.coat && !scene.coat->brdf.empty());
     }
 
     const Image& image() {
         refresh(Stage::shade,
                 fmt::format("{} {} {} {}", runs(Stage::exitance), slices, runs(Stage::background), runs(Stage::coat)),
                 [&] {
-                    const std::vector<Rgbf> radiance =
-                        exitRadiance(visible, technique->exitance(), material.medium.eta, settings.threads);
-                    report.exposure = displayExposure(visible, radiance);
-                    picture = composite(visible, radiance, coat, background);
+                    exitRadiance(visible, technique->exitance(), material.medium.eta, settings.threads, radiance);
+                    report.exposure = displayExposure(visible, radiance, settings.threads);
+                    composite(visible, radiance, coat, background, settings.threads, picture);
                 });
         return picture;
     }
@@ -258,10 +318,18 @@ struct Renderer::Impl {
     void describe() {
         report.points = points().positions.size();
         report.receivers = visible.positions.size();
-        const double area = std::accumulate(points().areas.begin(), points().areas.end(), 0.0);
-        report.point_spacing_mm = std::sqrt(area / static_cast<double>(report.points));
+        if (const std::string of = fmt::format("{} {}", runs(Stage::points), runs(Stage::object)); spacing_from != of) {
+            const double area = std::accumulate(points().areas.begin(), points().areas.end(), 0.0);
+            report.point_spacing_mm = std::sqrt(area / static_cast<double>(report.points));
+            spacing_from = of;
+        }
         report.notes = object.notes;
+        if (profile && !isRadial(material.model))
+            report.notes.emplace_back("At every angle the model stands with its profile under a normal beam.");
+        if (std::string twice = countedTwice(material.model); !twice.empty()) report.notes.push_back(std::move(twice));
         const Medium& medium = material.medium;
+        if (object.isMesh() && settings.points == 0)
+            if (const auto note = noteOfFewPoints(area_mm2, medium)) report.notes.push_back(*note);
         for (int c = 0; c < medium.channels; ++c) {
             if (!medium.scatters(c))
                 report.notes.push_back(fmt::format("Channel {} does not scatter: it is black.", "RGB"[c]));
@@ -283,7 +351,7 @@ Renderer::~Renderer() = default;
 void Renderer::setScene(Scene scene) { impl_->scene = std::move(scene); }
 void Renderer::setSettings(RenderSettings settings) { impl_->settings = std::move(settings); }
 
-Image Renderer::render(Observer& observer) {
+const Image& Renderer::render(Observer& observer) {
     start(observer);
     while (!step(observer)) {
     }

@@ -32,7 +32,7 @@ struct RenderSettings {
     ParamValues technique_options;  ///< by the names of its Params; absent: default
     int edge_samples = 8;           ///< rays through a pixel that an edge crosses
     int light_samples = 512;        ///< of an occluded environment
-    bool gl = false;                ///< the technique's version on the renderer's context
+    bool gl = false;                ///< irradiance, visible surface and technique on the renderer's context
     std::uint64_t seed = 1;
     int threads = 0;                          ///< 0: all
     std::optional<CacheFolder> points_cache;  ///< where points of a mesh are kept
@@ -46,6 +46,7 @@ std::string_view stageName(Stage stage);
 struct StageReport {
     std::uint64_t runs = 0;  ///< since the renderer was made
     double ms = 0;           ///< of the last render(); 0: nothing to do
+    bool gl = false;         ///< the last run was on OpenGL
 };
 
 struct RenderReport {
@@ -70,8 +71,10 @@ public:
     void setScene(Scene scene);
     void setSettings(RenderSettings settings);
 
-    /// The final picture: start(), step() until true, image(). Throws Error; a stage that threw is redone next time.
-    Image render(Observer& observer);
+    /// The final picture: start(), step() until true, image(). It stays until the next call that draws. Throws Error; a
+    /// stage that threw is redone next time. After a device Error of a context that is lost() the renderer is of no more
+    /// use: another takes its place.
+    const Image& render(Observer& observer);
 
     /// Brings every stage before the exitance up to date and begins that one.
     void start(Observer& observer);
@@ -88,7 +91,11 @@ private:
 };
 
 /// Points of irradiance for a surface of that area, so that they stand closer than the medium blurs, a transport mean
-/// free path of its densest channel: 100,000, 200,000, 400,000 or 800,000, so that a slider seldom changes it.
+/// free path of its densest channel: 100,000, 200,000, 400,000 or 800,000, so that a slider seldom changes it; the last
+/// also where it is too few.
 std::size_t defaultPointCount(double area_mm2, const Medium& medium);
+
+/// What a user should know where it is too few.
+std::optional<std::string> noteOfFewPoints(double area_mm2, const Medium& medium);
 
 }  // namespace searchlight

@@ -3,10 +3,22 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "model/sum_model.h"
 #include "render/brute_force.h"
 #include "render/hierarchical.h"
 
 namespace searchlight {
+
+namespace {
+
+Param normalBeamOption() {
+    return {.name = std::string(normal_beam_option),
+            .type = ParamType::toggle,
+            .value = false,
+            .doc = "a model that reads directions is taken for its profile under a normal beam: radial, and fast"};
+}
+
+}  // namespace
 
 std::span<const TechniqueEntry> techniques() {
     static const std::vector<TechniqueEntry> entries{
@@ -16,12 +28,14 @@ std::span<const TechniqueEntry> techniques() {
                       .min = 1e-4,
                       .max = 0.5,
                       .value = 0.005,
-                      .doc = "relative RMSE over the receivers that is asked for"}},
+                      .doc = "relative RMSE over the receivers that is asked for"},
+                     normalBeamOption()},
          .directional = true,
          .gl = true,
          .make = makeHierarchical},
         {.id = "brute_force",
          .summary = "sum over all points one by one: any model, slow, what the others are measured against",
+         .options = {normalBeamOption()},
          .directional = true,
          .make = makeBruteForce},
     };
@@ -38,10 +52,10 @@ const TechniqueEntry& findTechnique(std::string_view id) {
 
 ParamValues modelParameters(const RenderInput& input) {
     ParamValues values;
-    for (const Param& param : input.model->file.parameters) {
-        const auto given = input.scene->model.parameters.find(param.name);
-        if (given != input.scene->model.parameters.end())
-            values[param.name] = parseValue(param, valueText(given->second));
+    for (const auto& [given, value] : input.scene->model.parameters) {
+        const std::string name = parameterName(*input.model, given);
+        const auto param = std::ranges::find(input.model->file.parameters, name, &Param::name);
+        if (param != input.model->file.parameters.end()) values[name] = parseValue(*param, valueText(value));
     }
     return values;
 }

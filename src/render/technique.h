@@ -35,7 +35,7 @@ struct RenderInput {
     const Model* model = nullptr;
     Evaluator* evaluator = nullptr;  ///< set to the medium
     const Medium* medium = nullptr;
-    const Profile* profile = nullptr;  ///< of a radial model; null otherwise
+    const Profile* profile = nullptr;  ///< of a radial model, or of one that is taken for radial; null otherwise
     int threads = 0;                   ///< 0: all
     struct Versions {
         std::uint64_t points = 0, light = 0, view = 0, material = 0;
@@ -82,6 +82,10 @@ struct TechniqueEntry {
     bool gl = false;           ///< has a version on OpenGL, which make() gives for a context; null makes the CPU's
     std::unique_ptr<Technique> (*make)(gl::Context* context);
 };
+
+/// The option of techniques by which a model that is not radial stands in a picture with its azimuthal mean under a
+/// normal beam. Whoever gives the technique its profile obeys it.
+inline constexpr std::string_view normal_beam_option = "normal_beam";
 
 /// In menu order.
 std::span<const TechniqueEntry> techniques();

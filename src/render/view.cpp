@@ -5,21 +5,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/error.h"
-#include "base/parallel.h"
+#include "render/visible/gather.h"
 
 namespace searchlight {
 
 namespace {
 
-constexpr int tile_size = 8;
-constexpr int tile_pixels = tile_size * tile_size;
 constexpr double degree = std::numbers::pi / 180;
-
-// Normals further apart than 25 degrees are a crease: closer ones shade alike.
-constexpr double crease_cosine = 0.9;
-// A neighbour on the same smooth surface lies within this many pixel widths of the tangent plane.
-constexpr double depth_jump_pixels = 2;
 
 struct Basis {
     Vec3 right, up, forward;
@@ -35,12 +27,6 @@ Basis basisOf(const Camera& camera) {
     return {right, cross(right, forward), forward};
 }
 
-struct Sample {
-    bool hit = false;
-    float depth = 0;  // along the forward axis
-    Vec3f position, normal, geometric_normal;
-};
-
 // The second coordinate of a Hammersley point, in the middle of its stratum.
 double radicalInverse(int k, int count) {
     double value = 0, digit = 0.5;
@@ -49,180 +35,127 @@ double radicalInverse(int k, int count) {
     return value + 0.5 / count;
 }
 
-class Tracer {
-public:
-    // Of `rays` and `found` one is null.
-    Tracer(const View& view, const Object& object, const RayScene* rays, const PictureHits* found,
-           const TraceOptions& options)
-        : view_(view),
-          mesh_(object.mesh),
-          rays_(rays),
-          found_(found),
-          options_(options),
-          columns_((view.width + tile_size - 1) / tile_size),
-          rows_((view.height + tile_size - 1) / tile_size),
-          pattern_(edgePattern(std::max(1, options.edge_samples))),
-          centres_(static_cast<std::size_t>(view.width) * view.height) {}
+Ray rayThrough(const View& view, double x, double y) { return {toFloat(view.eye), toFloat(view.direction(x, y))}; }
 
-    VisibleSurface run(Observer& observer) {
-        const std::size_t tiles = static_cast<std::size_t>(columns_) * rows_;
-        forTiles(tiles, observer, [&](std::size_t tile) { traceCentres(tile); });
-        std::vector<VisibleSurface> parts(tiles);
-        forTiles(tiles, observer, [&](std::size_t tile) { gather(tile, parts[tile]); });
-        return joined(parts);
+// Whether something is hit.
+bool put(const RayHit& hit, std::size_t at, Hits& hits) {
+    if (!std::isfinite(hit.t)) return false;
+    hits.inverse_depth[at] = 1 / hit.t;  // the direction's forward component is 1
+    hits.triangle[at] = hit.triangle;
+    hits.u[at] = hit.u;
+    hits.v[at] = hit.v;
+    return true;
+}
+
+// Rays against the mesh.
+class TracedHits final : public HitSource {
+public:
+    TracedHits(const View& view, const RayScene& rays, const TraceOptions& options)
+        : view_(view), rays_(rays), pattern_(edgePattern(std::max(1, options.edge_samples))) {}
+
+    bool centres(const Tile& tile, Hits& hits) const override {
+        // Blocks of 8 x 8, whose rays go the same way.
+        bool any = false;
+        Batch batch;
+        for (int top = 0; top < tile.height + 2; top += block_side)
+            for (int left = 0; left < tile.width + 2; left += block_side) {
+                batch.count = 0;
+                forPixels(tile, left, top,
+                          [&](int x, int y, std::size_t at) { batch.add(rayThrough(view_, x + 0.5, y + 0.5), at); });
+                any = batch.intersect(rays_, hits) || any;
+            }
+        return any;
+    }
+
+    void samples(const Tile& tile, std::span<const std::uint16_t> pixels, std::size_t stride,
+                 Hits& hits) const override {
+        Batch batch;
+        for (std::size_t i = 0; i < pixels.size(); ++i) {
+            const int x = tile.left + pixels[i] % Tile::side, y = tile.top + pixels[i] / Tile::side;
+            for (std::size_t k = 0; k < pattern_.size(); ++k) {
+                batch.add(rayThrough(view_, x + pattern_[k].first, y + pattern_[k].second), i * stride + k);
+                if (batch.count == batch.rays.size()) batch.intersect(rays_, hits);
+            }
+        }
+        batch.intersect(rays_, hits);
     }
 
 private:
-    template <class Body>
-    void forTiles(std::size_t tiles, Observer& observer, const Body& body) const {
-        parallelFor(tiles, options_.threads, [&](std::size_t tile) {
-            if (observer.cancelled()) throw interruptedError();
-            body(tile);
-        });
-    }
+    static constexpr int block_side = 8;
 
-    template <class Body>
-    void forPixels(std::size_t tile, const Body& body) const {
-        const int left = static_cast<int>(tile % static_cast<std::size_t>(columns_)) * tile_size;
-        const int top = static_cast<int>(tile / static_cast<std::size_t>(columns_)) * tile_size;
-        for (int y = top; y < std::min(top + tile_size, view_.height); ++y)
-            for (int x = left; x < std::min(left + tile_size, view_.width); ++x) body(x, y);
-    }
-
-    Ray rayThrough(double x, double y) const { return {toFloat(view_.eye), toFloat(view_.direction(x, y))}; }
-    Sample& centre(int x, int y) { return centres_[static_cast<std::size_t>(y) * view_.width + x]; }
-    const Sample& centre(int x, int y) const { return const_cast<Tracer*>(this)->centre(x, y); }
-
-    Sample sampleOf(const Ray& ray, const RayHit& hit) const {
-        Sample sample;
-        if (!std::isfinite(hit.t)) return sample;
-        sample.hit = true;
-        sample.depth = hit.t;  // the direction's forward component is 1
-        const auto& corners = mesh_.triangles[hit.triangle];
-        const auto interpolated = [&](const std::vector<Vec3f>& values) {
-            return (1.0 - hit.u - hit.v) * toDouble(values[corners[0]]) + hit.u * toDouble(values[corners[1]]) +
-                   hit.v * toDouble(values[corners[2]]);
-        };
-        const Vec3 to_eye = normalize(-1.0 * toDouble(ray.direction));
-        Vec3 geometric = toDouble(hit.normal);
-        // Open meshes show their inside.
-        const bool inside = dot(geometric, to_eye) < 0;
-        if (inside) geometric = -1.0 * geometric;
-        Vec3 normal = mesh_.normals.empty() ? geometric : interpolated(mesh_.normals);
-        if (inside && !mesh_.normals.empty()) normal = -1.0 * normal;
-        if (!(length(normal) > 1e-6) || dot(normal, geometric) <= 0) normal = geometric;
-        sample.position = toFloat(interpolated(mesh_.positions));
-        sample.normal = toFloat(normalize(normal));
-        sample.geometric_normal = toFloat(geometric);
-        return sample;
-    }
-
-    void traceCentres(std::size_t tile) {
-        std::array<Ray, tile_pixels> rays;
-        std::array<RayHit, tile_pixels> hits;
+    struct Batch {
+        std::array<Ray, block_side * block_side> rays;
+        std::array<std::size_t, block_side * block_side> at;
         std::size_t count = 0;
-        forPixels(tile, [&](int x, int y) { rays[count++] = rayThrough(x + 0.5, y + 0.5); });
-        if (rays_) rays_->intersect(std::span(rays).first(count), std::span(hits).first(count), true);
-        std::size_t next = 0;
-        forPixels(tile, [&](int x, int y) {
-            if (found_) hits[next] = found_->hit(x, y, -1, rays[next]);
-            centre(x, y) = sampleOf(rays[next], hits[next]);
-            ++next;
-        });
-    }
 
-    bool samePatch(const Sample& a, const Sample& b) const {
-        const Vec3 step = toDouble(b.position) - toDouble(a.position);
-        const double pixel_mm = 2 * view_.tan_half / view_.height * std::min(a.depth, b.depth);
-        return dot(toDouble(a.normal), toDouble(b.normal)) > crease_cosine &&
-               std::abs(dot(step, toDouble(a.geometric_normal))) < depth_jump_pixels * pixel_mm;
-    }
-
-    bool isEdge(int x, int y) const {
-        const Sample& here = centre(x, y);
-        for (const auto& [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
-            const int nx = x + dx, ny = y + dy;
-            if (nx < 0 || ny < 0 || nx >= view_.width || ny >= view_.height) continue;
-            const Sample& there = centre(nx, ny);
-            if (here.hit != there.hit) return true;
-            if (here.hit && !samePatch(here, there)) return true;
+        void add(const Ray& ray, std::size_t place) {
+            rays[count] = ray;
+            at[count++] = place;
         }
-        return false;
-    }
-
-    static void append(VisibleSurface& part, std::uint32_t pixel, float coverage, const Sample& sample) {
-        part.pixels.push_back(pixel);
-        part.coverage.push_back(coverage);
-        part.positions.push_back(sample.position);
-        part.normals.push_back(sample.normal);
-        part.geometric_normals.push_back(sample.geometric_normal);
-    }
-
-    // The samples of an edge pixel, those of one patch as one: exitance hardly changes within a pixel.
-    void gatherEdge(int x, int y, VisibleSurface& part) const {
-        struct Patch {
-            Sample first;
-            Vec3 normals;
-            int count = 0;
-        };
-        std::vector<Ray> rays;
-        for (const auto& [px, py] : pattern_) rays.push_back(rayThrough(x + px, y + py));
-        std::vector<RayHit> hits(rays.size());
-        if (rays_) rays_->intersect(rays, hits, true);
-        for (std::size_t k = 0; k < rays.size() && found_; ++k)
-            hits[k] = found_->hit(x, y, static_cast<int>(k), rays[k]);
-        std::vector<Patch> patches;
-        for (std::size_t k = 0; k < rays.size(); ++k) {
-            const Sample sample = sampleOf(rays[k], hits[k]);
-            if (!sample.hit) continue;
-            auto patch = std::ranges::find_if(patches, [&](const Patch& p) { return samePatch(p.first, sample); });
-            if (patch == patches.end()) patch = patches.insert(patches.end(), {sample, {}, 0});
-            patch->normals = patch->normals + toDouble(sample.normal);
-            ++patch->count;
+        bool intersect(const RayScene& scene, Hits& hits) {
+            std::array<RayHit, block_side * block_side> found;
+            scene.intersect(std::span(rays).first(count), std::span(found).first(count), true);
+            bool any = false;
+            for (std::size_t i = 0; i < count; ++i) any = put(found[i], at[i], hits) || any;
+            count = 0;
+            return any;
         }
-        const auto pixel =
-            static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(view_.width) + static_cast<std::uint32_t>(x);
-        for (Patch& patch : patches) {
-            patch.first.normal = toFloat(normalize(patch.normals));
-            append(part, pixel, static_cast<float>(patch.count) / static_cast<float>(rays.size()), patch.first);
-        }
-    }
+    };
 
-    void gather(std::size_t tile, VisibleSurface& part) const {
-        forPixels(tile, [&](int x, int y) {
-            if (options_.edge_samples > 1 && isEdge(x, y)) return gatherEdge(x, y, part);
-            const auto pixel =
-                static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(view_.width) + static_cast<std::uint32_t>(x);
-            if (centre(x, y).hit) append(part, pixel, 1, centre(x, y));
-        });
-    }
-
-    VisibleSurface joined(const std::vector<VisibleSurface>& parts) const {
-        VisibleSurface all{.width = view_.width, .height = view_.height, .eye = view_.eye};
-        const auto join = [&](auto member) {
-            std::size_t size = 0;
-            for (const VisibleSurface& part : parts) size += (part.*member).size();
-            (all.*member).reserve(size);
-            for (const VisibleSurface& part : parts)
-                (all.*member).insert((all.*member).end(), (part.*member).begin(), (part.*member).end());
-        };
-        join(&VisibleSurface::pixels);
-        join(&VisibleSurface::coverage);
-        join(&VisibleSurface::positions);
-        join(&VisibleSurface::normals);
-        join(&VisibleSurface::geometric_normals);
-        return all;
+    // Those of a block of the window that lie in the picture.
+    template <class Body>
+    void forPixels(const Tile& tile, int left, int top, const Body& body) const {
+        for (int wy = top; wy < std::min(top + block_side, tile.height + 2); ++wy)
+            for (int wx = left; wx < std::min(left + block_side, tile.width + 2); ++wx) {
+                const int x = tile.left + wx - 1, y = tile.top + wy - 1;
+                if (x >= 0 && y >= 0 && x < view_.width && y < view_.height) body(x, y, Tile::at(wx, wy));
+            }
     }
 
     const View& view_;
-    const Mesh& mesh_;
-    const RayScene* rays_;
-    const PictureHits* found_;
-    TraceOptions options_;
-    int columns_, rows_;
-    std::vector<std::pair<double, double>> pattern_;  // within a pixel
-    std::vector<Sample> centres_;
+    const RayScene& rays_;
+    std::vector<std::pair<double, double>> pattern_;
 };
+
+// What a picture of hits says.
+class FoundHits final : public HitSource {
+public:
+    FoundHits(const View& view, const PictureHits& found, const TraceOptions& options)
+        : view_(view), found_(found), pattern_(edgePattern(std::max(1, options.edge_samples))) {}
+
+    bool centres(const Tile& tile, Hits& hits) const override {
+        bool any = false;
+        for (int y = std::max(0, tile.top - 1); y < std::min(view_.height, tile.top + tile.height + 1); ++y)
+            for (int x = std::max(0, tile.left - 1); x < std::min(view_.width, tile.left + tile.width + 1); ++x)
+                any = put(found_.hit(x, y, -1, rayThrough(view_, x + 0.5, y + 0.5)),
+                          Tile::at(x - tile.left + 1, y - tile.top + 1), hits) ||
+                      any;
+        return any;
+    }
+
+    void samples(const Tile& tile, std::span<const std::uint16_t> pixels, std::size_t stride,
+                 Hits& hits) const override {
+        for (std::size_t i = 0; i < pixels.size(); ++i) {
+            const int x = tile.left + pixels[i] % Tile::side, y = tile.top + pixels[i] / Tile::side;
+            for (std::size_t k = 0; k < pattern_.size(); ++k)
+                put(found_.hit(x, y, static_cast<int>(k),
+                               rayThrough(view_, x + pattern_[k].first, y + pattern_[k].second)),
+                    i * stride + k, hits);
+        }
+    }
+
+private:
+    const View& view_;
+    const PictureHits& found_;
+    std::vector<std::pair<double, double>> pattern_;
+};
+
+VisibleSurface gathered(const View& view, const Object& object, const HitSource& source, const TraceOptions& options,
+                        Observer& observer) {
+    VisibleSurface visible;
+    SurfaceGatherer().gather(view, object.mesh, source, options, observer, visible);
+    return visible;
+}
 
 }  // namespace
 
@@ -256,7 +189,7 @@ View makeView(const Camera& camera, const Object& object, int width, int height)
 
 VisibleSurface traceVisible(const View& view, const Object& object, const RayScene& rays, const TraceOptions& options,
                             Observer& observer) {
-    return Tracer(view, object, &rays, nullptr, options).run(observer);
+    return gathered(view, object, TracedHits(view, rays, options), options, observer);
 }
 
 std::vector<std::pair<double, double>> edgePattern(int count) {
@@ -267,7 +200,7 @@ std::vector<std::pair<double, double>> edgePattern(int count) {
 
 VisibleSurface visibleSurface(const View& view, const Object& object, const PictureHits& hits,
                               const TraceOptions& options, Observer& observer) {
-    return Tracer(view, object, nullptr, &hits, options).run(observer);
+    return gathered(view, object, FoundHits(view, hits, options), options, observer);
 }
 
 }  // namespace searchlight

@@ -34,8 +34,9 @@ Camera framedCamera(const Camera& camera, const Object& object, int width, int h
 /// The scene's camera around the object, framed.
 View makeView(const Camera& camera, const Object& object, int width, int height);
 
-/// The surface samples behind the pixels, listed tile by tile (8 x 8 pixels), so that neighbours in the list are
-/// neighbours in space. A pixel has one sample or, with antialiasing at edges, several.
+/// The surface samples behind the pixels, listed by tiles of 64 x 64 pixels and in these by blocks of 8 x 8, so that
+/// neighbours in the list are neighbours in space. The samples of a pixel follow each other. A pixel has one sample or,
+/// with antialiasing at edges, several.
 struct VisibleSurface {
     int width = 0, height = 0;
     Vec3 eye;                              ///< mm

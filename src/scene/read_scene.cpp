@@ -31,7 +31,7 @@ public:
         if (const json* value = member(root, "lights")) scene.lights = readLights(*value);
         if (const json* value = member(root, "ground"))
             readSection(*value, "/ground", ground_fields, scene.ground.emplace());
-        if (const json* value = member(root, "coat")) readSection(*value, "/coat", coat_fields, scene.coat.emplace());
+        if (const json* value = member(root, "coat")) scene.coat = readCoat(*value);
         if (const json* value = member(root, "backdrop"))
             scene.backdrop = std::get<Rgb>(valueAt("/backdrop", *value, backdrop_param));
         return scene;
@@ -154,20 +154,36 @@ private:
             throw error("/model", "expected an id or an object",
                         "such as \"dipole\" or {\"id\": \"dipole\", \"parameters\": {}}");
         readFields(value, "/model", model_fields, {"parameters"}, model);
-        const json* parameters = member(value, "parameters");
-        if (!parameters) return model;
-        if (!parameters->is_object()) throw error("/model/parameters", "expected an object");
+        model.parameters = readParameters(value, "/model");
+        return model;
+    }
+
+    Coat readCoat(const json& value) const {
+        if (!value.is_object()) throw error("/coat", "expected an object");
+        Coat coat;
+        readFields(value, "/coat", coat_fields, {"parameters"}, coat);
+        coat.parameters = readParameters(value, "/coat");
+        if (coat.brdf.empty() && !coat.parameters.empty())
+            throw errorAtKey("/coat/parameters", "there is no .brdf file for these parameters", "add \"brdf\"");
+        return coat;
+    }
+
+    ParamValues readParameters(const json& section, const std::string& pointer) const {
+        ParamValues values;
+        const json* parameters = member(section, "parameters");
+        if (!parameters) return values;
+        if (!parameters->is_object()) throw error(pointer + "/parameters", "expected an object");
         for (const auto& [name, given] : parameters->items()) {
-            // What the model makes of a value is not known here: any shape that a Param can have is taken.
+            // What the file makes of a value is not known here: any shape that a Param can have is taken.
             Param any;
             any.name = name;
             any.type = given.is_string()    ? ParamType::text
                        : given.is_boolean() ? ParamType::toggle
                        : given.is_array()   ? ParamType::numbers
                                             : ParamType::number;
-            model.parameters[name] = valueAt("/model/parameters" + pointerStep(name), given, any);
+            values[name] = valueAt(pointer + "/parameters" + pointerStep(name), given, any);
         }
-        return model;
+        return values;
     }
 
     std::vector<Light> readLights(const json& value) const {

@@ -78,6 +78,7 @@ struct Ground {
 struct Coat {
     double roughness = 0.3;
     std::string brdf;
+    ParamValues parameters;  ///< of the .brdf file, as written: as in SceneModel
 };
 
 struct Scene {

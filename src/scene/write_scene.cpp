@@ -46,11 +46,22 @@ ordered_json materialJson(const SceneMaterial& material) {
     return object;
 }
 
+ordered_json parametersJson(const ParamValues& values) {
+    ordered_json object = ordered_json::object();
+    for (const auto& parameter : values)
+        std::visit([&](const auto& value) { object[parameter.first] = toJson(value); }, parameter.second);
+    return object;
+}
+
 ordered_json modelJson(const SceneModel& model) {
     ordered_json object = section(model, model_fields);
-    ordered_json& parameters = object["parameters"] = ordered_json::object();
-    for (const auto& parameter : model.parameters)
-        std::visit([&](const auto& value) { parameters[parameter.first] = toJson(value); }, parameter.second);
+    object["parameters"] = parametersJson(model.parameters);
+    return object;
+}
+
+ordered_json coatJson(const Coat& coat) {
+    ordered_json object = section(coat, coat_fields);
+    object["parameters"] = parametersJson(coat.parameters);
     return object;
 }
 
@@ -106,7 +117,7 @@ std::string sceneJson(const Scene& scene) {
         root["lights"].push_back(std::visit([](const auto& l) { return toJson(l); }, light));
     if (scene.ground) root["ground"] = section(*scene.ground, ground_fields);
     if (scene.backdrop) root["backdrop"] = toJson(*scene.backdrop);
-    if (scene.coat) root["coat"] = section(*scene.coat, coat_fields);
+    if (scene.coat) root["coat"] = coatJson(*scene.coat);
     return root.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 

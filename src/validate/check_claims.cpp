@@ -58,7 +58,10 @@ bool scaleParameters(CheckBench& bench, double scale, ParamValues& values) {
     for (const Param& param : bench.file().parameters) {
         const int power = lengthPower(param.unit);
         const ParamValue& value = valueOf(param, bench.parameters());
-        if (power == 0 || !std::holds_alternative<double>(value)) continue;
+        if (power == 0) continue;
+        if (std::holds_alternative<Rgb>(value))  // as a colour it has no upper end
+            values.insert_or_assign(param.name, std::pow(scale, power) * std::get<Rgb>(value));
+        if (!std::holds_alternative<double>(value)) continue;
         const double scaled_value = std::get<double>(value) * std::pow(scale, power);
         if (scaled_value < param.min || scaled_value > param.max) return false;
         values.insert_or_assign(param.name, scaled_value);

@@ -4,13 +4,17 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "model/physics.h"
+#include "model/sum_model.h"
 #include "validate/check_bench.h"
 
 namespace searchlight {
 
 Finding checkFormat(CheckBench& bench) {
     const BssrdfFile& file = bench.file();
-    return passed(fmt::format("{}: {}", file.title, join(file.attributes, " ")));
+    const std::string found = fmt::format("{}: {}", file.title, join(file.attributes, " "));
+    if (const std::string twice = countedTwice(bench.model()); !twice.empty())
+        return reported(fmt::format("{}. {}", found, twice));
+    return passed(found);
 }
 
 Finding checkCompiles(CheckBench& bench) {
@@ -18,14 +22,17 @@ Finding checkCompiles(CheckBench& bench) {
     if (!bench.gl()) return skipped(bench.noGl());
     bench.gl()->set(checkMedia().front(), bench.parameters());
     // Compiled when first called.
-    if (bench.file().diffuse_reflectance.present()) bench.gl()->diffuseReflectance({0.5, 0.5, 0.5});
+    if (hasDiffuseReflectance(bench.model())) bench.gl()->diffuseReflectance({0.5, 0.5, 0.5});
     return passed(bench.gl()->backend());
 }
 
 Finding checkPortable(CheckBench& bench) {
     if (bench.model().measured) return skipped("a measured profile has no GLSL");
-    if (const auto reason = portabilityError(bench.file()))
-        return reported(fmt::format("runs on OpenGL only: {}", reason->what()));
+    const Model& model = bench.model();
+    for (const Model& part : model.parts.empty() ? std::vector{model} : model.parts)
+        if (!part.measured)
+            if (const auto reason = portabilityError(part.file))
+                return reported(fmt::format("runs on OpenGL only: {}", reason->what()));
     return passed("inside the subset");
 }
 

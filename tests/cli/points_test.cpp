@@ -16,6 +16,7 @@ TEST_F(Program, PointsAreMadeOnceAndThenRead) {
     ASSERT_EQ(first.exit_code, 0) << first.err;
     const json made = json::parse(first.out).at("points"), read = json::parse(second.out).at("points");
     EXPECT_EQ(made.at("count"), 2000);
+    EXPECT_EQ(made.at("unit"), "the mesh's own");
     EXPECT_FALSE(made.at("cached"));
     EXPECT_TRUE(read.at("cached"));
     // The file has its areas as floats.

@@ -1,5 +1,6 @@
 // Meshes and point clouds from anywhere: read or refused with a place; what was read keeps its promises and survives
-// being written. The first byte selects the format; its highest bit means packed.
+// being written. The first byte selects the format, and its highest bit means packed; or every input is of one format
+// (one_format.h).
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -7,6 +8,7 @@
 #include "base/error.h"
 #include "io/shape_file.h"
 #include "io/shape_formats.h"
+#include "one_format.h"
 
 namespace {
 
@@ -58,11 +60,17 @@ void check(const PointCloud& cloud) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     static const std::vector<std::string> endings = shapeEndings();
-    if (size == 0) return 0;
-    std::string path = "no_such_folder/fuzz" + endings[(data[0] & 0x7F) % endings.size()];
-    if (data[0] & 0x80) path += ".gz";
+    static const std::string only = oneFormat(endings);
+    std::string_view bytes(reinterpret_cast<const char*>(data), size);
+    std::string path = "no_such_folder/fuzz" + only;
+    if (only.empty()) {
+        if (bytes.empty()) return 0;
+        path += endings[(data[0] & 0x7F) % endings.size()];
+        if (data[0] & 0x80) path += ".gz";
+        bytes.remove_prefix(1);
+    }
     try {
-        const Shape shape = parseShape({reinterpret_cast<const char*>(data) + 1, size - 1}, path);
+        const Shape shape = parseShape(bytes, path);
         std::visit([](const auto& kind) { check(kind); }, shape);
     } catch (const Error& error) {
         expect(error.kind == ErrorKind::input && error.file == path);

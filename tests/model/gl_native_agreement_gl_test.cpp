@@ -5,32 +5,11 @@
 #include <array>
 
 #include "gl_test_model.h"
+#include "limits.h"
 #include "scene/materials.h"
 
 namespace searchlight {
 namespace {
-
-// Every setting of the model's choice and bool parameters, the others at their defaults.
-std::vector<ParamValues> settings(const Model& model) {
-    std::vector<ParamValues> all(1);
-    for (const Param& param : model.file.parameters) {
-        std::vector<ParamValue> options;
-        if (param.type == ParamType::choice) options.assign(param.choices.begin(), param.choices.end());
-        if (param.type == ParamType::toggle) options = {true, false};
-        if (options.empty()) continue;
-        std::vector<ParamValues> more;
-        for (const ParamValues& values : all)
-            for (const ParamValue& option : options) (more.emplace_back(values))[param.name] = option;
-        all = std::move(more);
-    }
-    return all;
-}
-
-std::string settingText(const ParamValues& values) {
-    std::string text;
-    for (const auto& [name, value] : values) text += fmt::format(" {}={}", name, valueText(value));
-    return text;
-}
 
 // As GL gets it: at exponents of 70 the rounding of the input alone would show.
 double rounded(double value) { return static_cast<float>(value); }
@@ -80,9 +59,19 @@ std::vector<Case> cases() {
         all.push_back({id, findMaterial(id).medium});
     all.push_back({"g = 0.9", {{0.01, 0.1, 0.001}, {10, 20, 5}, {0.9, 0.9, 0.9}, 1.33}});
     all.push_back({"matched", {{0.01, 0.1, 1}, {1, 1, 1}, {0, 0, 0.5}, 1}});
+    for (const LimitCase& each : limitCases()) all.push_back({each.name, each.medium});
     for (auto& [name, medium] : all)
         medium = {rounded(medium.sigma_a), rounded(medium.sigma_s), rounded(medium.g), rounded(medium.eta)};
     return all;
+}
+
+// An exponent of 80 multiplies the rounding of its factors by 80: 3 of them are 1e-5 (media of an albedo of .02 have
+// one more). In the integral of single scattering there are ten, for h, place, m, 1 - m, u, 1 / u, their product, and
+// the cosine that goes to 0 at the end. The init() of two_layers integrates in single precision, where slabs let 1e-8
+// through.
+double tolerance(const Model& model) {
+    if (model.id == "two_layers") return 1e-4;
+    return model.id.starts_with("single") ? 5e-5 : 1e-5;
 }
 
 class GlNativeAgreement : public testing::TestWithParam<std::string> {};
@@ -93,7 +82,7 @@ std::vector<std::string> shippedIds() {
     return ids;
 }
 
-TEST_P(GlNativeAgreement, IsWithin1em5From1em3To30MeanFreePaths) {
+TEST_P(GlNativeAgreement, IsWithinRoundingFrom1em3To30MeanFreePaths) {
     const Model model = loadModel(GetParam());
     ASSERT_TRUE(hasNativeEvaluator(model));
     gl::Context context;
@@ -114,20 +103,26 @@ TEST_P(GlNativeAgreement, IsWithin1em5From1em3To30MeanFreePaths) {
                     for (int c = 0; c < 3; ++c) {
                         if (length(queries[i].xo) * test.medium.sigmaTp()[c] > 30) continue;
                         const double scale = scaleAt(expected, i, c, model.file.radial);
-                        // An exponent of 80 multiplies the rounding of its factors by 80: 3 of them are 1e-5.
                         if (scale < 1e-35 && std::abs(values[i][c]) < 1e-35) continue;
-                        const double error = std::abs(values[i][c] - expected[i][c]) / scale;
+                        const double rounding = test.medium.alphaPrime()[c] < 0.05 ? 4.0 / 3 : 1;
+                        const double error = std::abs(values[i][c] - expected[i][c]) / (rounding * scale);
                         if (error <= worst) continue;
                         worst = error;
                         where = fmt::format("x = ({}, {}) mm, channel {}: GL {}, double {}", queries[i].xo.x,
                                             queries[i].xo.y, c, values[i][c], expected[i][c]);
                     }
                 }
-                EXPECT_LE(worst, 1e-5) << test.material << settingText(parameters) << ", " << angle_deg << " deg, "
-                                       << where;
+                EXPECT_LE(worst, tolerance(model))
+                    << test.material << settingText(parameters) << ", " << angle_deg << " deg, " << where;
             }
         }
     }
+}
+
+TEST_P(GlNativeAgreement, GlGivesNumbersAtTheLimits) {
+    const Model model = loadModel(GetParam());
+    gl::Context context;
+    expectNumbers(*makeGlEvaluator(model, context), model);
 }
 
 TEST_P(GlNativeAgreement, OfDiffuseReflectanceIsWithin1em5) {

@@ -162,7 +162,7 @@ TEST_P(Tabulated, IsAsAccurateAsStatedBetweenItsSamples) {
 
 INSTANTIATE_TEST_SUITE_P(Models, Tabulated,
                          testing::Values("dipole", "better_dipole", "normalized_diffusion", "gaussians",
-                                         "directional_dipole"));
+                                         "directional_dipole", "quantized_diffusion", "photon_beam_diffusion_normal"));
 
 TEST(Tabulate, LeavesAChannelThatDoesNotScatterAtZero) {
     Medium medium = ofAlbedo(0.9, 1.3);

@@ -33,6 +33,27 @@ TEST(BrdfFile, ReadsParametersAndShader) {
     EXPECT_TRUE(file.shader.starts_with("vec3 BRDF"));
 }
 
+TEST(BrdfFile, ParametersAreSetByNameOrHaveTheirDefaults) {
+    const BrdfFile file = parseBrdf(
+        "analytic\n::begin parameters\nfloat roughness 0 1 0.25\nbool on 1\ncolor tint 1 .5 0\n::end parameters\n" +
+            shader,
+        "a.brdf");
+    const std::vector<ParamValue> values =
+        brdfValues(file, {{"on", false}, {"tint", std::vector<double>{0.1, 0.2, 0.3}}});
+    EXPECT_EQ(values, (std::vector<ParamValue>{0.25, false, Rgb{0.1, 0.2, 0.3}}));
+    const auto refusal = [&](const ParamValues& given) -> std::string {
+        try {
+            brdfValues(file, given);
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return "no error";
+    };
+    EXPECT_EQ(refusal({{"roughnes", 0.1}}),
+              "unknown parameter of a.brdf 'roughnes' (valid: roughness, on, tint)");
+    EXPECT_NE(refusal({{"roughness", 2.0}}), "no error");
+}
+
 TEST(BrdfFile, SaysWhatIsWrongAndWhere) {
     EXPECT_EQ(message(""), "a.brdf:1:1: the file holds no BRDF (expected a first line 'analytic')");
     EXPECT_EQ(message("merl\n"),

@@ -35,7 +35,7 @@ std::string lambert() {
 
 std::string message(const std::string& text, gl::Context& context) {
     try {
-        BrdfEvaluator evaluator(parseBrdf(text, "a.brdf"), context);
+        BrdfEvaluator evaluator(parseBrdf(text, "a.brdf"), {}, context);
         const BrdfQuery query{{0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}};
         Rgb value;
         evaluator.evaluate({&query, 1}, {&value, 1});
@@ -50,7 +50,7 @@ TEST(Brdf, GivesEveryVectorToTheShader) {
     const std::string text =
         "analytic\n::begin shader\nvec3 BRDF(vec3 L, vec3 V, vec3 N, vec3 X, vec3 Y) {\n"
         "  return vec3(dot(L, V), dot(N, X) + 2.0 * dot(N, Y), L.x + V.y);\n}\n::end shader\n";
-    BrdfEvaluator evaluator(parseBrdf(text, "a.brdf"), context);
+    BrdfEvaluator evaluator(parseBrdf(text, "a.brdf"), {}, context);
     const BrdfQuery query{{0.5, 0, 0}, {0.25, 3, 0}, {1, 2, 3}, {1, 0, 0}, {0, 1, 0}};
     Rgb value;
     evaluator.evaluate({&query, 1}, {&value, 1});
@@ -64,7 +64,7 @@ TEST(Brdf, LambertIsItsClosedForm) {
     std::filesystem::create_directories(folder);
     writeFile(folder / "lambert.brdf", lambert());
     Scene scene;
-    scene.coat = Coat{0, (folder / "lambert.brdf").string()};
+    scene.coat = Coat{0, (folder / "lambert.brdf").string(), {}};
     DirectionalLight sun;
     sun.direction = {1, 2, 2};
     sun.irradiance = {3, 3, 3};
@@ -84,6 +84,11 @@ TEST(Brdf, LambertIsItsClosedForm) {
         ASSERT_NEAR(value.r, 0.2 / pi * 3 * 2 / 3, 1e-6);
         ASSERT_NEAR(value.b, 0.8 / pi * 3 * 2 / 3, 1e-6);
     }
+    scene.coat->parameters = {{"albedo", std::vector<double>{0.4, 0.1, 0.2}}};
+    for (const Rgbf& value : radiance()) ASSERT_NEAR(value.r, 0.4 / pi * 3 * 2 / 3, 1e-6);
+    scene.coat->parameters = {{"invert", true}};
+    for (const Rgbf& value : radiance()) ASSERT_EQ(value, Rgbf{});
+    scene.coat->parameters.clear();
     // Under an even sky of radiance 1 the whole albedo comes back.
     writeImage((folder / "even.pfm").string(), {Image(64, 32, {1, 1, 1, 1}), {}, {}});
     EnvironmentLight sky;

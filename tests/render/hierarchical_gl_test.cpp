@@ -12,6 +12,7 @@
 #include "model/model.h"
 #include "model/plane.h"
 #include "render/exitance/radial_kernel.h"
+#include "render/model_sum_gl.h"
 #include "render/radial_sum_gl.h"
 #include "scene/materials.h"
 
@@ -308,6 +309,48 @@ TEST(HierarchicalGl, EvaluatesADirectionalModelToThePromisedError) {
     for (int c = 0; c < Rgb::channels; ++c) EXPECT_LE(relativeRmse(exact, technique->exitance(), c), 0.01) << c;
     // Of 2 x 3000 points.
     EXPECT_LT(static_cast<double>(technique->report().interactions) / 400, 1500);
+}
+
+TEST(HierarchicalGl, AddsThePartsOfASum) {
+    gl::Context context;
+    const auto technique = makeHierarchicalGl(&context);
+    const ModelCase problem("better_dipole+directional_dipole", 20);
+    const std::vector<Rgb> exact = sumModelInDouble(problem.input());
+    runToTheEnd(*technique, problem.input(), 0.01);
+    for (int c = 0; c < Rgb::channels; ++c) EXPECT_LE(relativeRmse(exact, technique->exitance(), c), 0.01) << c;
+}
+
+// A plate of two sheets: nodes of both have normals that cancel.
+TEST(HierarchicalGl, OpensNodesWhoseNormalsCancel) {
+    gl::Context context;
+    ModelCase plate("directional_dipole", 10);
+    PointCloud& points = plate.problem.points;
+    VisibleSurface& visible = plate.problem.visible;
+    points = {};
+    for (int i = 0; i < 800; ++i) {
+        const float side = i % 2 == 0 ? 1.0f : -1.0f;
+        points.positions.push_back({static_cast<float>(i / 2 % 20), static_cast<float>(i / 40), 0.05f * side});
+        points.normals.push_back({0.28f, 0, 0.96f * side});
+        points.areas.push_back(1);
+    }
+    visible.positions.clear();
+    for (int i = 0; i < 64; ++i) visible.positions.push_back({static_cast<float>(i) + 0.5f, 10.5f, 0.05f});
+    visible.normals.assign(64, {0, 0, 1});
+    const std::vector<Rgbf> flux(800, Rgbf{1, 1, 1});
+    plate.problem.irradiance = {flux, {{{{1, 0, 0}}, flux}}};  // grazes both
+    ModelSumGl sum(context);
+    sum.setPoints(points, 1);
+    sum.setModel(plate.model, plate.medium, {}, plate.problem.profile);
+    sum.setLight(plate.problem.irradiance, true, 1);
+    sum.setReceivers(visible, 1);
+    const int level = sum.coarseLevel();
+    // However wide the nodes are opened, those that hold both sheets are not taken.
+    sum.run({level, 0, 1, SumGl::groups(level)}, 1);
+    const std::vector<Rgbf> found = sum.exitance(0, 64);
+    const std::vector<Rgb> exact = sumModelInDouble(plate.input());
+    std::vector<Rgbf> in_order(64);
+    for (std::size_t i = 0; i < 64; ++i) in_order[sum.order()[i]] = found[i];
+    for (int c = 0; c < Rgb::channels; ++c) EXPECT_LE(relativeRmse(exact, in_order, c), 0.01) << c;
 }
 
 TEST(HierarchicalGl, ModelAndProfileOfItAgree) {

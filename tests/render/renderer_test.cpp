@@ -269,6 +269,11 @@ TEST(DefaultPointCount, FollowsAreaAndMeanFreePath) {
     EXPECT_EQ(defaultPointCount(1000, medium), 100'000u);
     EXPECT_EQ(defaultPointCount(20000, medium), 400'000u);
     EXPECT_EQ(defaultPointCount(1e9, medium), 800'000u);
+    EXPECT_FALSE(noteOfFewPoints(50000, medium));  // wants just those
+    const std::optional<std::string> note = noteOfFewPoints(100'000, medium);
+    ASSERT_TRUE(note);
+    EXPECT_NE(note->find("800000 points"), std::string::npos) << *note;
+    EXPECT_NE(note->find("1.6 million"), std::string::npos) << *note;
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ Scene richScene() {
                     EnvironmentLight{"venice.hdr", {2, 2, 2}, 90, true, "angular"}, PointLight{{0, 2, 0}, {3, 2, 1}}};
     scene.ground = Ground{-0.25, {0.2, 0.3, 0.4}};
     scene.backdrop = Rgb{0.1, 0.1, 0.2};
-    scene.coat = Coat{0.15, "clear.brdf"};
+    scene.coat = Coat{0.15, "clear.brdf", {{"gloss", 0.1}, {"tint", std::vector<double>{1, 0, 0.1}}}};
     return scene;
 }
 
@@ -42,6 +42,9 @@ TEST(SceneFile, RoundTripIsExact) {
         EXPECT_EQ(again.material.eta, scene.material.eta);
         EXPECT_EQ(again.model.parameters, scene.model.parameters);
         EXPECT_EQ(again.lights.size(), scene.lights.size());
+        if (scene.coat) {
+            EXPECT_EQ(again.coat->parameters, scene.coat->parameters);
+        }
         EXPECT_EQ(again.backdrop, scene.backdrop);
     }
 }

@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <cmath>
+#include <numbers>
 
 #include "base/error.h"
 #include "exact.h"
@@ -28,6 +29,8 @@ HalfSpaceOptions options(std::uint64_t walks) {
     o.edges_mm = {0, 0.01, 0.1, 0.3, 1, 3};
     o.grid = 8;
     o.grid_extent_mm = 2;
+    o.strip_edges_mm = {-2, -1, -0.5, 0, 0.5, 2};
+    o.strip_half_width_mm = 0.5;
     return o;
 }
 
@@ -38,8 +41,8 @@ std::vector<double> numbers(const HalfSpaceResult& result) {
     for (const HalfSpaceTally* tally : {&result.all, &result.single, &result.multiple}) {
         for (const Estimate& e : {tally->total, tally->mean_x_mm, tally->mean_r2_mm2})
             all.insert(all.end(), {e.mean, e.standard_error});
-        for (const auto* list :
-             {&tally->Rd, &tally->standard_error, &tally->beyond, &tally->grid, &tally->grid_standard_error})
+        for (const auto* list : {&tally->Rd, &tally->standard_error, &tally->beyond, &tally->grid,
+                                 &tally->grid_standard_error, &tally->strip, &tally->strip_standard_error})
             all.insert(all.end(), list->begin(), list->end());
     }
     return all;
@@ -66,6 +69,49 @@ TEST(HalfSpace, ResultDoesNotDependOnThreads) {
         o.seed = 2;
         EXPECT_NE(numbers(one), numbers(walkHalfSpace(problem, o, observer)));
     }
+}
+
+TEST(HalfSpace, StripIsTheMiddleOfTheGrid) {
+    Observer observer;
+    // Cells of the grid are half a mm wide; the strip holds its rows 3 and 4.
+    const HalfSpaceResult result = walkHalfSpace(problems[3], options(100'000), observer);
+    for (const HalfSpaceTally* tally : {&result.all, &result.single, &result.multiple}) {
+        ASSERT_EQ(tally->strip.size(), 5u);
+        const auto column = [&](std::size_t i) { return 0.5 * (tally->grid[8 * 3 + i] + tally->grid[8 * 4 + i]); };
+        const std::vector<double> expected{0.5 * (column(0) + column(1)), column(2), column(3), column(4),
+                                           (column(5) + column(6) + column(7)) / 3};
+        // The same counts divided by the same areas.
+        for (std::size_t i = 0; i < 5; ++i) EXPECT_NEAR(tally->strip[i], expected[i], 1e-12 * expected[i]) << i;
+    }
+    // Standard errors of what a beam moves: more on the side that it leans to.
+    EXPECT_GT(result.all.strip[3] - result.all.strip[2], 3 * result.all.strip_standard_error[3]);
+}
+
+// A walk scattered once, at length t of the beam, leaves from under its place: at matched indices and isotropic
+// scattering <x> = sin int (mu/(mu+m))^2 dmu / int mu/(mu+m) dmu, m the cosine of the beam, over [0, 1].
+TEST(HalfSpace, SingleScatteringShiftsByItsClosedForm) {
+    Judge judge;
+    std::uint64_t seed = 5;
+    for (const double albedo : {0.3, 0.9})
+        for (const double angle_deg : {10.0, 45.0, 60.0, 85.0}) {
+            HalfSpaceProblem problem = ofAlbedo(albedo);
+            problem.angle_deg = angle_deg;
+            const HalfSpaceResult result = walk(problem, 200'000, seed++);
+            const double m = std::cos(angle_deg * std::numbers::pi / 180), log = std::log((1 + m) / m);
+            const double expected = std::sqrt(1 - m * m) * (1 - 2 * m * log + m / (1 + m)) / (1 - m * log);
+            judge.compare("angle " + std::to_string(angle_deg), result.single.mean_x_mm, expected);
+        }
+    judge.expectAgreement();
+}
+
+TEST(HalfSpace, RefusesImpossibleStrips) {
+    Observer observer;
+    HalfSpaceOptions o = options(100);
+    o.strip_half_width_mm = 0;
+    EXPECT_THROW(walkHalfSpace(problems[0], o, observer), Error);
+    o = options(100);
+    o.strip_edges_mm = {0, 0};
+    EXPECT_THROW(walkHalfSpace(problems[0], o, observer), Error);
 }
 
 TEST(HalfSpace, Avx2AndAvx512AgreeBitForBit) {

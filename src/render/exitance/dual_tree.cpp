@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "base/error.h"
 #include "base/parallel.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -283,6 +284,7 @@ void traverseTree(const DualTreeProblem& problem, int threads, DualTreeResult& r
     result.expansions += top.expansions;
     std::vector<std::array<std::uint64_t, 2>> counts(tasks.size());
     parallelFor(tasks.size(), threads, [&](std::size_t i) {
+        if (problem.observer && problem.observer->cancelled()) throw interruptedError();
         Traversal traversal(problem, result);
         traversal.run(tasks[i]);
         counts[i] = {traversal.interactions, traversal.expansions};

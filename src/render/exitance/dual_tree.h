@@ -24,7 +24,8 @@ struct DualTreeProblem {
     const RadialTable::Impl& table;
     const ReceiverTree::Impl& receivers;
     const Opening& opening;
-    std::span<const Visit> visits;  ///< per receiver node; empty: descend everywhere
+    std::span<const Visit> visits;       ///< per receiver node; empty: descend everywhere
+    const Observer* observer = nullptr;  ///< asked before each task
 };
 
 struct DualTreeResult {
@@ -34,7 +35,7 @@ struct DualTreeResult {
     std::uint64_t interactions = 0, expansions = 0;
 };
 
-/// Fills `result`, whose lists are used again where they have the right size. Does not depend on `threads`.
+/// Fills `result`, whose lists are used again. Does not depend on `threads`. Throws interruptedError() when cancelled.
 void traverse(const DualTreeProblem& problem, int threads, DualTreeResult& result);
 
 /// "AVX3", "AVX2", ...: what the traversal uses here.

@@ -4,35 +4,19 @@
 #include <cmath>
 #include <numbers>
 
+#include "render/exitance/judge.h"
+
 namespace searchlight {
 
 namespace {
 
-// Leaves in the sample. The spread of the squared error between leaves makes 64 of them know its mean to about 20 %.
-constexpr std::size_t draws = 64;
+constexpr std::size_t draws = sampled_leaves;
 // Nodes among which they are drawn, before those that hold much of the light are cut up.
 constexpr std::size_t strata = 512;
-// Standard errors that the bound lies above what the sample has.
-constexpr double confidence = 3;
-// And what it is multiplied by: rare leaves that a sample of this size misses.
-constexpr double missed = 1.1;
-// The truth of the pilot is the same sum, opened this much further: its own error is as much smaller.
-constexpr double finer = 24;
+constexpr double finer = reference_fineness;
 constexpr int trials = 12;
 // Opening for where the light is: good to some 10 %.
 constexpr double rough = 20;
-
-// A fixed sequence: the result has to be the same each time.
-std::uint32_t scrambled(std::uint32_t v) {
-    v = (v ^ v >> 16) * 0x7feb352d;
-    v = (v ^ v >> 15) * 0x846ca68b;
-    return v ^ v >> 16;
-}
-
-struct Draw {
-    const ReceiverNode* leaf;
-    double weight;  // 1 / (probability x number of draws)
-};
 
 // A node of receivers and its share of what the draws go by.
 struct Stratum {
@@ -46,12 +30,12 @@ public:
 
     SumCalibration run(Rgb first) {
         // Where nothing is to be seen nothing can be wrong.
-        if (!matters(0) && !matters(1) && !matters(2)) return {.opening = {1, 1, 1}};
+        if (!matters(input_, 0) && !matters(input_, 1) && !matters(input_, 2)) return {.opening = {1, 1, 1}};
         drawLeaves();
-        const Rgb most = largestOpening();
+        const Rgb most = largestOpening(input_);
         Rgb opening;
         for (int c = 0; c < Rgb::channels; ++c)
-            if (matters(c)) opening[c] = std::min(most[c], first[c] > 0 ? first[c] : 500 * input_.error);
+            if (matters(input_, c)) opening[c] = std::min(most[c], first[c] > 0 ? first[c] : 500 * input_.error);
         SumCalibration best;
         for (int trial = 0; trial < trials; ++trial) {
             Rgb bounds;
@@ -61,7 +45,7 @@ public:
             // Close enough: larger openings would save less than a tenth of the time.
             bool close = keeps;
             for (int c = 0; c < Rgb::channels; ++c) {
-                if (!matters(c)) continue;
+                if (!matters(input_, c)) continue;
                 const double ratio = input_.error / std::max(bounds[c], 1e-30);
                 close = close && (ratio < 1.3 || opening[c] >= most[c]);
                 // The error is about proportional to the opening. Where another channel decides, it is not, and this
@@ -75,23 +59,6 @@ public:
 
 private:
     const ReceiverNode& node(std::size_t at) const { return input_.receivers.nodes[at]; }
-
-    bool matters(int c) const {
-        return input_.points.lit[static_cast<std::size_t>(c)] && input_.table.mean_square_radius[c] > 0;
-    }
-
-    // A sample does not see rare large errors. So a leaf of the points, the smallest thing that is expanded, may be
-    // wrong by no more than 20 times the wanted error, and a tenth, in terms of the exitance under even light.
-    Rgb largestOpening() const {
-        const double leaf_area =
-            input_.points.total_area / static_cast<double>(input_.points.order.size()) * PointTree::Impl::leaf_size;
-        Rgb largest;
-        for (int c = 0; c < Rgb::channels; ++c)
-            largest[c] = std::min(20 * input_.error, 0.1) *
-                         std::min(input_.points.total_area, std::numbers::pi * input_.table.mean_square_radius[c]) /
-                         leaf_area;
-        return largest;
-    }
 
     // Half of the probability goes evenly over the receivers, half to where the exitance is: with little light on a
     // large object an even sample would miss what the error is relative to.
@@ -144,7 +111,7 @@ private:
         std::fill(visits_.begin(), visits_.end(), Visit::skip);
         for (const Stratum& stratum : level) visits_[stratum.node] = Visit::guess;
         markAncestors(0);
-        const auto opening = openingOf(input_.table, {rough, rough, rough}, input_.points.total_area);
+        const auto opening = openingOf(input_.table, {rough, rough, rough}, input_.points.total_area, input_.threads);
         traverse({input_.points, input_.table, input_.receivers, opening, visits_}, input_.threads, tried_);
         const auto square = [&](std::uint32_t at, int c) {
             const auto value = static_cast<double>(tried_.guesses[at][static_cast<std::size_t>(c)]);
@@ -177,8 +144,8 @@ private:
             at = 0x1p-32 * random * node(at).count < node(child).count ? child : child + 1;
         }
         visits_[at] = Visit::descend;
-        sample_.push_back(
-            {&node(at), static_cast<double>(node(stratum.node).count) / (stratum.share * draws * node(at).count)});
+        sample_.push_back({node(at).first, node(at).count,
+                           static_cast<double>(node(stratum.node).count) / (stratum.share * draws * node(at).count)});
     }
 
     bool markAncestors(std::size_t at) {
@@ -205,9 +172,10 @@ private:
         sumSample(opening, tried_);
         SumCalibration result{.opening = opening};
         for (int c = 0; c < Rgb::channels; ++c) {
-            if (!matters(c)) continue;
+            if (!matters(input_, c)) continue;
             const auto channel = static_cast<std::size_t>(c);
-            bounds[c] = judge(tried_.exitance[channel], reference_.exitance[channel], peak_[c], result) *
+            bounds[c] = judge(sample_, tried_.exitance[channel], reference_.exitance[channel], peak_[c],
+                              input_.receivers.order.size(), result) *
                         (1 + reference_opening_[c] / opening[c]);
             result.error_bound = std::max(result.error_bound, bounds[c]);
         }
@@ -216,66 +184,14 @@ private:
 
     bool fineEnough(Rgb opening) const {
         for (int c = 0; c < Rgb::channels; ++c)
-            if (matters(c) && !(reference_opening_[c] > 0 && reference_opening_[c] < 3 / finer * opening[c]))
+            if (matters(input_, c) && !(reference_opening_[c] > 0 && reference_opening_[c] < 3 / finer * opening[c]))
                 return false;
         return true;
     }
 
-    // The bound of one channel's relative RMSE; adds what it says to the bound of the largest error.
-    double judge(const std::vector<float>& tried, const std::vector<float>& truth, double peak,
-                 SumCalibration& result) const {
-        double error = 0, norm = 0, receivers = 0;
-        std::vector<double> errors, norms, largest, local;
-        for (const Draw& draw : sample_) {
-            double e = 0, m = 0, worst = 0;
-            for (std::size_t i = draw.leaf->first; i < draw.leaf->first + draw.leaf->count; ++i) {
-                const double off = static_cast<double>(tried[i]) - static_cast<double>(truth[i]);
-                e += off * off;
-                worst = std::max(worst, std::abs(off));
-                m += static_cast<double>(truth[i]) * static_cast<double>(truth[i]);
-            }
-            errors.push_back(e * draw.weight);
-            norms.push_back(m * draw.weight);
-            largest.push_back(worst);
-            local.push_back(std::sqrt(m / draw.leaf->count));
-            error += errors.back();
-            norm += norms.back();
-            receivers += draw.weight * draw.leaf->count;
-        }
-        if (!(norm > 0)) return 0;
-        // Ratio of two sums over the same draws, [Cochran1977] Eq. 6.13.
-        const double ratio = error / norm;
-        double variance = 0;
-        for (std::size_t k = 0; k < errors.size(); ++k) {
-            const double off = errors[k] - ratio * norms[k];
-            variance += off * off;
-        }
-        variance *= static_cast<double>(draws) / (draws - 1);
-
-        const double rms = std::sqrt(norm / receivers);
-        const double bound = missed * std::sqrt(ratio + confidence * std::sqrt(variance) / norm);
-        // Where the light is concentrated the error is, too, and the sample may have missed the brightest leaf. And of
-        // 1e5 normal deviates the largest is above 4; these are not normal, and 14 was seen.
-        double relative = 0;
-        for (std::size_t k = 0; k < largest.size(); ++k)
-            relative = std::max(relative, largest[k] / std::max(local[k], rms));
-        // The largest error of a leaf has an exponential tail: what lies above the sample's upper quarter, on average,
-        // is gained with every factor e in the number of leaves, and four times more for chance.
-        std::sort(largest.begin(), largest.end());
-        const std::size_t upper = largest.size() * 3 / 4;
-        double excess = 0;
-        for (std::size_t k = upper; k < largest.size(); ++k) excess += largest[k] - largest[upper];
-        excess /= static_cast<double>(largest.size() - upper);
-        const double leaves = static_cast<double>(input_.receivers.order.size()) / ReceiverTree::Impl::leaf_size;
-        const double extreme = largest[upper] + excess * (std::log(std::max(4.0, leaves) / 4) + 4);
-        result.largest_error_bound = std::max({result.largest_error_bound, extreme / rms, 2 * largest.back() / rms,
-                                               1.5 * relative * peak / rms, 16 * bound});
-        return bound;
-    }
-
     const PilotInput& input_;
     std::vector<Visit> visits_;
-    std::vector<Draw> sample_;
+    std::vector<DrawnLeaf> sample_;
     Rgb peak_;  // of the rough exitance
     Rgb reference_opening_;
     DualTreeResult tried_, reference_;
@@ -283,8 +199,23 @@ private:
 
 }  // namespace
 
+bool matters(const PilotInput& input, int c) {
+    return input.points.lit[static_cast<std::size_t>(c)] && input.table.mean_square_radius[c] > 0;
+}
+
+Rgb largestOpening(const PilotInput& input) {
+    const double leaf_area =
+        input.points.total_area / static_cast<double>(input.points.order.size()) * PointTree::Impl::leaf_size;
+    Rgb largest;
+    for (int c = 0; c < Rgb::channels; ++c)
+        largest[c] = std::min(20 * input.error, 0.1) *
+                     std::min(input.points.total_area, std::numbers::pi * input.table.mean_square_radius[c]) /
+                     leaf_area;
+    return largest;
+}
+
 Opening openingFor(const PilotInput& input, Rgb opening) {
-    return openingOf(input.table, opening, input.points.total_area);
+    return openingOf(input.table, opening, input.points.total_area, input.threads);
 }
 
 SumCalibration calibrate(const PilotInput& input, Rgb first) { return Pilot(input).run(first); }

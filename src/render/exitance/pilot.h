@@ -15,6 +15,16 @@ struct PilotInput {
     int threads;
 };
 
+/// The truth of a sample is the same sum, opened this much further: its own error is as much smaller.
+inline constexpr double reference_fineness = 24;
+
+/// Whether the channel has light and the table scatters it: otherwise nothing can be wrong with it.
+bool matters(const PilotInput& input, int channel);
+
+/// A sample does not see rare large errors. So a leaf of the points, the smallest thing that is expanded, may be wrong
+/// by no more than 20 times the wanted error, and a tenth, in terms of the exitance under even light.
+Rgb largestOpening(const PilotInput& input);
+
 /// The rule by which nodes are opened, for parameters that calibrate() found.
 Opening openingFor(const PilotInput& input, Rgb opening);
 

@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "base/parallel.h"
+
 namespace searchlight {
 
 namespace {
@@ -140,7 +142,7 @@ Rgb RadialTable::operator()(double r_mm) const {
     return R;
 }
 
-Opening openingOf(const RadialTable::Impl& table, Rgb opening, double area_mm2) {
+Opening openingOf(const RadialTable::Impl& table, Rgb opening, double area_mm2, int threads) {
     // How much a large R_d excuses. With 1 the pairs close to a receiver, which are few and do not average out, make
     // most of the error; with 0.1 the same error takes a quarter less time.
     constexpr double near = 0.1;
@@ -153,13 +155,15 @@ Opening openingOf(const RadialTable::Impl& table, Rgb opening, double area_mm2) 
         const double spread = std::min(area_mm2, std::numbers::pi * table.mean_square_radius[c]);
         const double mean = std::abs(table.total[c]) / spread;
         crowding = std::max(crowding, 1 / spread);
-        for (std::size_t i = 0; i + 1 < distances.size(); ++i) {
+        const auto distanceAt = [&](std::size_t i) {
             const double allowed = 6 * opening[c] * (near * table.values[i][c] + mean);
             // The remainder is a third derivative somewhere between r - s and r + s. The reach falls as the interval
             // grows: s is where both meet.
             const auto reach = [&](double s) {
                 const double largest = table.largestThird(table.radii[i] - s, table.radii[i] + s, c);
-                return largest > 0 ? std::min(std::cbrt(allowed / largest), everything) : everything;
+                // In float: it is some ten times as fast, and the rule is no sharper than a hundredth.
+                return largest > 0 ? std::min<double>(std::cbrt(static_cast<float>(allowed / largest)), everything)
+                                   : everything;
             };
             double high = reach(0), low = reach(high);
             for (int step = 0; step < 8 && low < 0.98 * high; ++step) {
@@ -172,8 +176,14 @@ Opening openingOf(const RadialTable::Impl& table, Rgb opening, double area_mm2) 
                     high = std::min(high, there);
                 }
             }
-            distances[i] = std::min(distances[i], static_cast<float>(low));
-        }
+            return static_cast<float>(low);
+        };
+        constexpr std::size_t grain = 128;
+        const std::size_t bins = distances.size() - 1;
+        parallelFor((bins + grain - 1) / grain, threads, [&](std::size_t task) {
+            for (std::size_t i = task * grain; i < std::min(bins, (task + 1) * grain); ++i)
+                distances[i] = std::min(distances[i], distanceAt(i));
+        });
         // The last bin holds all distances from its own on: the least of them must not reach back to where R_d is.
         std::size_t end = distances.size() - 1;
         while (end > 0 && table.values[end - 1][c] == 0) --end;

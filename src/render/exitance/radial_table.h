@@ -50,6 +50,6 @@ struct Opening {
 /// Expansions of second order whose remainder is at most opening (R_d(r) / 10 + mean R_d) per unit flux in every
 /// channel with an `opening` above 0. The mean is the total over S = min(area, pi <r^2>): what one unit of flux gives
 /// its surroundings on average. A node with more flux than S holds under even light is allowed no more than that one.
-Opening openingOf(const RadialTable::Impl& table, Rgb opening, double area_mm2);
+Opening openingOf(const RadialTable::Impl& table, Rgb opening, double area_mm2, int threads = 0);
 
 }  // namespace searchlight

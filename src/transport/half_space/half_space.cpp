@@ -48,6 +48,13 @@ void check(const HalfSpaceOptions& options) {
     if (options.grid < 0 || options.grid > kFinestGrid) reject("the grid", options.grid, "0 to 4096 cells a side");
     if (options.grid > 0 && !(options.grid_extent_mm > 0 && options.grid_extent_mm <= 1e9))
         reject("the extent of the grid", options.grid_extent_mm, "above 0, up to 1e9 mm");
+    const std::vector<double>& strip = options.strip_edges_mm;
+    if (strip.size() == 1) throw inputError("a strip needs at least 2 edges");
+    for (std::size_t i = 0; i < strip.size(); ++i)
+        if (!(std::abs(strip[i]) <= 1e9 && (i == 0 || strip[i] > strip[i - 1])))
+            reject("an edge of the strip", strip[i], "edges ascend within 1e9 mm of the entry point");
+    if (!strip.empty() && !(options.strip_half_width_mm > 0 && options.strip_half_width_mm <= 1e9))
+        reject("half the width of the strip", options.strip_half_width_mm, "above 0, up to 1e9 mm");
 }
 
 // What is summed over chunks, for every order of scattering: weight per slot, over walks; and weight times x and r^2,
@@ -130,10 +137,17 @@ private:
         tally.mean_x_mm = moment(moments, 0, mfp_);
         tally.mean_r2_mm2 = moment(moments, 1, mfp_ * mfp_);
         const double side = options_.grid > 0 ? 2 * options_.grid_extent_mm / options_.grid : 0;
-        for (std::size_t slot = layout_.gridSlot(); slot < layout_.slots(); ++slot) {
+        for (std::size_t slot = layout_.gridSlot(); slot < layout_.stripSlot(); ++slot) {
             const Estimate cell = flux(sums, slot);
             tally.grid.push_back(cell.mean / (side * side));
             tally.grid_standard_error.push_back(cell.standard_error / (side * side));
+        }
+        for (std::size_t i = 0; i < layout_.stripCells(); ++i) {
+            const double area =
+                2 * options_.strip_half_width_mm * (options_.strip_edges_mm[i + 1] - options_.strip_edges_mm[i]);
+            const Estimate cell = flux(sums, layout_.stripSlot() + i);
+            tally.strip.push_back(cell.mean / area);
+            tally.strip_standard_error.push_back(cell.standard_error / area);
         }
         return tally;
     }
@@ -173,6 +187,9 @@ HalfSpaceTally emptyTally(const HalfSpaceOptions& options) {
     tally.beyond = {0.0};
     tally.grid.assign(cells, 0.0);
     tally.grid_standard_error.assign(cells, 0.0);
+    const std::size_t strip = options.strip_edges_mm.empty() ? 0 : options.strip_edges_mm.size() - 1;
+    tally.strip.assign(strip, 0.0);
+    tally.strip_standard_error.assign(strip, 0.0);
     return tally;
 }
 
@@ -182,6 +199,8 @@ std::vector<double> scaled(std::vector<double> edges, double sigma_t) {
 }
 
 }  // namespace
+
+void checkHalfSpaceProblem(const HalfSpaceProblem& problem) { check(problem); }
 
 HalfSpaceProblem halfSpaceProblem(const Medium& medium, int channel, double angle_deg) {
     return {medium.sigma_a[channel], medium.sigma_s[channel], medium.g[channel], medium.eta, angle_deg};
@@ -195,8 +214,9 @@ HalfSpaceResult walkHalfSpace(const HalfSpaceProblem& problem, const HalfSpaceOp
     result.specular = beam.specular;
     result.threads = options.threads > 0 ? options.threads : hardwareThreads();
     result.instruction_set = halfSpaceInstructionSet();
+    const bool cells = options.grid > 0 || !options.strip_edges_mm.empty();
     const bool pencil = problem.beam.kind == BeamShape::pencil;
-    result.estimator = options.grid > 0 || !pencil ? Estimator::analogue : options.estimator;
+    result.estimator = cells || !pencil ? Estimator::analogue : options.estimator;
     if (problem.sigma_s == 0 || beam.specular == 1) {
         result.all = result.single = result.multiple = emptyTally(options);
         return result;
@@ -212,7 +232,8 @@ HalfSpaceResult walkHalfSpace(const HalfSpaceProblem& problem, const HalfSpaceOp
                              .cos_incidence = std::cos(problem.angle_deg * (std::numbers::pi / 180))};
     const std::vector<double> edges = scaled(options.edges_mm, sigma_t);
     const TallyLayout layout{RadialBins(edges), static_cast<std::size_t>(options.grid),
-                             options.grid_extent_mm * sigma_t};
+                             options.grid_extent_mm * sigma_t, scaled(options.strip_edges_mm, sigma_t),
+                             options.strip_half_width_mm * sigma_t};
     std::optional<BestPlan> best;
     if (result.estimator == Estimator::best) best.emplace(walk, edges);
     ChunkedWalk job;

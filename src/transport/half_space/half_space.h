@@ -19,7 +19,7 @@ struct HalfSpaceProblem {
     double g = 0;          ///< Henyey-Greenstein mean cosine, |g| < 1
     double eta = 1;        ///< refractive index inside over outside; smooth Fresnel boundary
     double angle_deg = 0;  ///< of incidence outside, [0, 90); the refracted beam leans towards +x
-    BeamShape beam = {};        ///< its axis meets the surface at the entry point
+    BeamShape beam = {};   ///< its axis meets the surface at the entry point
 };
 
 /// How a walk becomes a tally; both are unbiased.
@@ -34,8 +34,11 @@ struct HalfSpaceOptions {
     std::vector<double> edges_mm;  ///< of the radial bins about the entry point, ascending, at least 2, first >= 0
     int grid = 0;                  ///< cells per side of the square tally R(x, y); 0: none
     double grid_extent_mm = 0;     ///< the square is [-extent, extent]^2
-    int threads = 0;               ///< 0: all
-    Estimator estimator = Estimator::analogue;  ///< a grid or a wide beam is always walked by the analogue
+    /// Along x, ascending: cells of the strip about the plane of incidence; or empty.
+    std::vector<double> strip_edges_mm;
+    double strip_half_width_mm = 0;             ///< the strip is |y| < this
+    int threads = 0;                            ///< 0: all
+    Estimator estimator = Estimator::analogue;  ///< a grid, a strip or a wide beam is always walked by the analogue
     WalkControl control;  ///< until_error: of the total, and of the profile: the mean over its bins, weighted by flux
 };
 
@@ -50,6 +53,8 @@ struct HalfSpaceTally {
     Estimate mean_r2_mm2;        ///< second moment about the entry point
     std::vector<double> grid;    ///< row-major over y then x, 1/mm^2, grid * grid values, or empty
     std::vector<double> grid_standard_error;
+    std::vector<double> strip;  ///< mean over each cell of the strip, 1/mm^2, n values for n + 1 edges, or empty
+    std::vector<double> strip_standard_error;
 };
 
 struct HalfSpaceResult {
@@ -68,6 +73,9 @@ struct HalfSpaceResult {
 
 /// The searchlight problem of one channel of a medium.
 HalfSpaceProblem halfSpaceProblem(const Medium& medium, int channel, double angle_deg = 0);
+
+/// Throws an input Error unless the numbers describe a problem.
+void checkHalfSpaceProblem(const HalfSpaceProblem& problem);
 
 /// Walks. The result depends on problem, walks, seed and edges alone, not on threads; AVX2 and AVX-512 agree bit for
 /// bit. Throws an input Error for an impossible problem, interruptedError() when the observer cancels.

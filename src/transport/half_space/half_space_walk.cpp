@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <type_traits>
 
 #include "transport/walk/long_walk.h"
 
@@ -34,14 +35,15 @@ constexpr std::size_t kExitCapacity = 1024;
 struct Exits {
     // Whole vectors are stored at the end.
     float x[kExitCapacity + 16], y[kExitCapacity + 16];
+    float u[kExitCapacity + 16], v[kExitCapacity + 16];  // direction inside; only for tallies that ask for it
     std::int32_t collisions[kExitCapacity + 16];
     std::size_t count = 0;
 };
 
-template <bool kFresnel, bool kIsotropic>
+template <bool kFresnel, bool kIsotropic, class Tally>
 class Walker {
 public:
-    Walker(const HalfSpaceWalk& walk, SplitMix64 seeds, std::uint64_t walks, ExitTally& tally)
+    Walker(const HalfSpaceWalk& walk, SplitMix64 seeds, std::uint64_t walks, Tally& tally)
         : walk_(walk), waiting_(walks), tally_(tally) {
         const double log_albedo = std::log1p(-walk.absorbed);
         absorbing_ = walk.absorbed > 0;
@@ -107,6 +109,8 @@ public:
     }
 
 private:
+    static constexpr bool kDirected = std::is_same_v<Tally, RadianceTally>;
+
     static HWY_INLINE FloatV set(double value) { return hn::Set(Float(), static_cast<float>(value)); }
 
     // Anywhere in the beam.
@@ -133,13 +137,21 @@ private:
         const FloatV length = hn::Div(before.z, hn::Neg(out.w));
         storeSet(hn::MulAdd(length, out.u, before.x), leaves, d, exits_.x + exits_.count);
         storeSet(hn::MulAdd(length, out.v, before.y), leaves, d, exits_.y + exits_.count);
+        if constexpr (kDirected) {
+            storeSet(out.u, leaves, d, exits_.u + exits_.count);
+            storeSet(out.v, leaves, d, exits_.v + exits_.count);
+        }
         storeSet(before.collisions, hn::RebindMask(Int(), leaves), Int(), exits_.collisions + exits_.count);
         exits_.count += hn::CountTrue(d, leaves);
         if (exits_.count >= kExitCapacity - 16) flush();
     }
 
     HWY_NOINLINE void flush() {
-        tally_.add({exits_.x, exits_.count}, {exits_.y, exits_.count}, {exits_.collisions, exits_.count});
+        const std::size_t n = exits_.count;
+        if constexpr (kDirected)
+            tally_.add({exits_.x, n}, {exits_.y, n}, {exits_.u, n}, {exits_.v, n}, {exits_.collisions, n});
+        else
+            tally_.add({exits_.x, n}, {exits_.y, n}, {exits_.collisions, n});
         exits_total_ += exits_.count;
         exits_.count = 0;
     }
@@ -170,7 +182,7 @@ private:
     std::uint64_t waiting_;     // walks not yet started
     std::uint64_t exits_total_ = 0;
     SplitMix64 rare_;
-    ExitTally& tally_;
+    Tally& tally_;
     Lanes lanes_[2];
     Lanes *from_ = &lanes_[0], *to_ = &lanes_[1];  // before and after the current step
     // So many collisions; the next one ends the walk.
@@ -178,16 +190,26 @@ private:
     Exits exits_;
 };
 
-template <bool kFresnel, bool kIsotropic>
-std::uint64_t walkAs(const HalfSpaceWalk& walk, SplitMix64 seeds, std::uint64_t walks, ExitTally& tally) {
-    return std::make_unique<Walker<kFresnel, kIsotropic>>(walk, seeds, walks, tally)->run();
+template <bool kFresnel, bool kIsotropic, class Tally>
+std::uint64_t walkAs(const HalfSpaceWalk& walk, SplitMix64 seeds, std::uint64_t walks, Tally& tally) {
+    return std::make_unique<Walker<kFresnel, kIsotropic, Tally>>(walk, seeds, walks, tally)->run();
+}
+
+template <class Tally>
+std::uint64_t walkInto(const HalfSpaceWalk& walk, SplitMix64 seeds, std::uint64_t walks, Tally& tally) {
+    const bool fresnel = walk.eta != 1, isotropic = walk.g == 0;
+    return (fresnel     ? isotropic ? walkAs<true, true, Tally> : walkAs<true, false, Tally>
+                : isotropic ? walkAs<false, true, Tally>
+                        : walkAs<false, false, Tally>)(walk, seeds, walks, tally);
 }
 
 std::uint64_t walkChunk(const HalfSpaceWalk& walk, SplitMix64 seeds, std::uint64_t walks, ExitTally& tally) {
-    const bool fresnel = walk.eta != 1, isotropic = walk.g == 0;
-    return (fresnel     ? isotropic ? walkAs<true, true> : walkAs<true, false>
-                : isotropic ? walkAs<false, true>
-                        : walkAs<false, false>)(walk, seeds, walks, tally);
+    return walkInto(walk, seeds, walks, tally);
+}
+
+std::uint64_t walkDirectedChunk(const HalfSpaceWalk& walk, SplitMix64 seeds, std::uint64_t walks,
+                                RadianceTally& tally) {
+    return walkInto(walk, seeds, walks, tally);
 }
 
 const char* targetName() { return hwy::TargetName(HWY_TARGET); }
@@ -200,11 +222,17 @@ HWY_AFTER_NAMESPACE();
 namespace searchlight {
 
 HWY_EXPORT(walkChunk);
+HWY_EXPORT(walkDirectedChunk);
 HWY_EXPORT(targetName);
 
 std::uint64_t walkHalfSpaceChunk(const HalfSpaceWalk& walk, std::uint64_t seed, std::uint64_t chunk,
                                  std::uint64_t walks, ExitTally& tally) {
     return HWY_DYNAMIC_DISPATCH(walkChunk)(walk, streamOf(seed, chunk), walks, tally);
+}
+
+std::uint64_t walkHalfSpaceChunk(const HalfSpaceWalk& walk, std::uint64_t seed, std::uint64_t chunk,
+                                 std::uint64_t walks, RadianceTally& tally) {
+    return HWY_DYNAMIC_DISPATCH(walkDirectedChunk)(walk, streamOf(seed, chunk), walks, tally);
 }
 
 const char* halfSpaceInstructionSet() { return HWY_DYNAMIC_DISPATCH(targetName)(); }

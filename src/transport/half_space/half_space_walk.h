@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "transport/half_space/radiance_tally.h"
 #include "transport/walk/beam.h"
 #include "transport/walk/tally.h"
 
@@ -16,7 +17,7 @@ struct HalfSpaceWalk {
     double eta = 1;       ///< inside over outside
     double sin_beam = 0;  ///< of the refracted beam, which leans towards +x
     double cos_beam = 1;
-    BeamShape shape = {};           ///< its radius in mean free paths
+    BeamShape shape = {};      ///< its radius in mean free paths
     double cos_incidence = 1;  ///< outside
 };
 
@@ -24,6 +25,9 @@ struct HalfSpaceWalk {
 /// number of collisions.
 std::uint64_t walkHalfSpaceChunk(const HalfSpaceWalk& walk, std::uint64_t seed, std::uint64_t chunk,
                                  std::uint64_t walks, ExitTally& tally);
+/// The same walks, counted by where and whither they leave.
+std::uint64_t walkHalfSpaceChunk(const HalfSpaceWalk& walk, std::uint64_t seed, std::uint64_t chunk,
+                                 std::uint64_t walks, RadianceTally& tally);
 
 /// The instruction set that walkHalfSpaceChunk uses: "AVX3", "AVX2", "SSE4"...
 const char* halfSpaceInstructionSet();

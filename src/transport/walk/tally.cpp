@@ -80,6 +80,12 @@ void ExitTally::add(std::span<const float> xs, std::span<const float> ys, std::s
             if (column >= 0 && column < side && row >= 0 && row < side)
                 sums.flux[layout_->gridSlot() + static_cast<std::size_t>(row * side + column)] += weight;
         }
+        if (std::abs(y) < layout_->strip_half_width) {
+            const std::vector<double>& edges = layout_->strip_edges;
+            const auto above = std::upper_bound(edges.begin(), edges.end(), x);
+            if (above != edges.begin() && above != edges.end())
+                sums.flux[layout_->stripSlot() + static_cast<std::size_t>(above - edges.begin()) - 1] += weight;
+        }
     }
 }
 

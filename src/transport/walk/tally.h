@@ -30,14 +30,18 @@ private:
     int steps_ = 0;  ///< the most edges within one cell
 };
 
-/// What is counted, in the walk's unit of length. Flux slots: [total, radial slots..., grid cells...].
+/// What is counted, in the walk's unit of length. Flux slots: [total, radial slots..., grid cells..., strip cells...].
 struct TallyLayout {
     RadialBins bins;
-    std::size_t grid = 0;    ///< cells per side; 0: none
-    double grid_extent = 0;  ///< half the side of the square
+    std::size_t grid = 0;                  ///< cells per side; 0: none
+    double grid_extent = 0;                ///< half the side of the square
+    std::vector<double> strip_edges = {};  ///< of the cells along x, ascending; empty: no strip
+    double strip_half_width = 0;           ///< the strip is |y| < this
 
-    std::size_t slots() const { return 1 + bins.slots() + grid * grid; }
+    std::size_t slots() const { return stripSlot() + stripCells(); }
     std::size_t gridSlot() const { return 1 + bins.slots(); }
+    std::size_t stripSlot() const { return gridSlot() + grid * grid; }
+    std::size_t stripCells() const { return strip_edges.empty() ? 0 : strip_edges.size() - 1; }
 };
 
 /// The exits of one chunk, split by order of scattering. Sums are double: counts stay exact, moments do not drift.

@@ -1,0 +1,60 @@
+// Figures of papers, made again: a paper is one file paper_x.cpp and one line in papers.cpp.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/figure.h"
+#include "base/observer.h"
+#include "job/engine.h"
+#include "job/json.h"
+
+namespace searchlight {
+
+/// What a paper says in words, and what is found here.
+struct PaperStatement {
+    std::string says;   ///< in our words
+    std::string found;  ///< with numbers
+    bool holds = false;
+};
+
+/// A figure, what had to be chosen for it, and what it shows.
+struct PaperPlate {
+    Figure figure;
+    std::vector<std::string> choices;  ///< where the paper's text leaves a setting open
+    std::vector<PaperStatement> statements;
+    Json values = Json::object();  ///< the numbers behind the statements
+};
+
+/// What a figure is made with.
+struct PaperRun {
+    Engine& engine;
+    Observer& observer;
+    std::uint64_t walks = 1'000'000;  ///< of the reference, per curve or picture
+    std::uint64_t seed = 1;
+    int threads = 0;
+    std::string backend = "auto";
+};
+
+struct PaperFigure {
+    std::string id;     ///< "4"
+    std::string shows;  ///< one line
+    PaperPlate (*make)(const PaperRun& run);
+};
+
+struct Paper {
+    std::string id;  ///< "frisvad2014"
+    std::string citation;
+    std::vector<PaperFigure> figures;
+};
+
+/// In the order of publication.
+std::span<const Paper> papers();
+
+/// The rows of papers(), each made in the paper's own file.
+Paper frisvad2014Paper();
+
+}  // namespace searchlight
