@@ -163,33 +163,5 @@ TEST(FigureSvg, BandsReachingZeroLeaveThroughTheBottomOfALogarithmicAxis) {
     EXPECT_EQ(band_bottom, frame_bottom);
 }
 
-// The frame is the first outlined box of its panel.
-Rect frameOf(const Drawing& drawing, double from_y) {
-    for (const Shape& shape : drawing.shapes)
-        if (const Box* box = std::get_if<Box>(&shape); box && !box->outline.empty() && box->rect.top >= from_y)
-            return box->rect;
-    return {};
-}
-
-TEST(FigureSvg, PanelsStandBelowWithTheirFramesFlush) {
-    Figure figure = example();
-    const double alone = layoutFigure(figure).height;
-    Figure panel;
-    panel.x = {"Radius", "mm"};
-    panel.y = {"Difference", "%", AxisScale::linear, -1e4, 1e4};
-    panel.series.push_back({.label = "difference", .x = {0, 3}, .y = {-5000, 5000}});
-    figure.below.push_back(panel);
-    const Drawing drawing = layoutFigure(figure);
-    EXPECT_GT(drawing.height, alone + 130);
-    const std::string svg = figureSvg(figure);
-    EXPECT_EQ(xmlProblem(svg), "");
-    EXPECT_THAT(svg, HasSubstr("Difference (%)"));
-    EXPECT_THAT(figureCsv(figure), HasSubstr("difference,3,,5000,,"));
-    const Rect upper = frameOf(drawing, 0), lower = frameOf(drawing, alone);
-    EXPECT_GT(lower.top, upper.bottom);
-    EXPECT_DOUBLE_EQ(lower.left, upper.left);
-    EXPECT_DOUBLE_EQ(lower.right, upper.right);
-}
-
 }  // namespace
 }  // namespace searchlight

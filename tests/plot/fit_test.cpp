@@ -23,28 +23,28 @@ FitPicture picture() {
 TEST(FitFigure, ShowsDataAndFitAndWhatIsLeft) {
     const std::vector<FitPicture> channels{picture()};
     const Figure figure = fitFigure(channels, "Dipole, fitted to wax", "Dipole");
-    ASSERT_EQ(figure.series.size(), 2u);
+    ASSERT_EQ(figure.panels.size(), 2u);
+    const Figure &curves = figure.panels[0], &residual = figure.panels[1];
+    ASSERT_EQ(curves.series.size(), 2u);
     // The last value is not known to 50 %.
-    EXPECT_THAT(figure.series[0].y, ElementsAre(2, 1));
-    EXPECT_DOUBLE_EQ(figure.series[0].upper[0], 2.2);
-    EXPECT_EQ(figure.series[1].label, "Dipole, R");
-    ASSERT_EQ(figure.below.size(), 1u);
-    const Figure& panel = figure.below[0];
-    EXPECT_DOUBLE_EQ(panel.series[1].y[0], 10);
-    EXPECT_DOUBLE_EQ(panel.series[1].y[1], -5);
-    EXPECT_TRUE(std::isnan(panel.series[1].y[2]));
-    EXPECT_DOUBLE_EQ(panel.series[0].upper[0], 10);
-    EXPECT_EQ(figure.x.max, panel.x.max);
-    EXPECT_THAT(panel.caption, HasSubstr("±2 standard errors"));
+    EXPECT_THAT(curves.series[0].y, ElementsAre(2, 1));
+    EXPECT_DOUBLE_EQ(curves.series[0].upper[0], 2.2);
+    EXPECT_EQ(curves.series[1].label, "Dipole, R");
+    EXPECT_DOUBLE_EQ(residual.series[1].y[0], 10);
+    EXPECT_DOUBLE_EQ(residual.series[1].y[1], -5);
+    EXPECT_TRUE(std::isnan(residual.series[1].y[2]));
+    EXPECT_DOUBLE_EQ(residual.series[0].upper[0], 10);
+    EXPECT_EQ(curves.x.max, residual.x.max);
+    EXPECT_THAT(figure.caption, HasSubstr("±2 standard errors"));
 }
 
 TEST(FitFigure, DataWithoutErrorsHaveNoBand) {
     std::vector<FitPicture> channels{picture()};
     channels[0].standard_error.clear();
     const Figure figure = fitFigure(channels, "Dipole, fitted to wax", "Dipole");
-    EXPECT_TRUE(figure.series[0].lower.empty());
-    EXPECT_TRUE(figure.below[0].series[0].lower.empty());
-    EXPECT_EQ(figure.series[0].y.size(), 3u);
+    EXPECT_TRUE(figure.panels[0].series[0].lower.empty());
+    EXPECT_TRUE(figure.panels[1].series[0].lower.empty());
+    EXPECT_EQ(figure.panels[0].series[0].y.size(), 3u);
 }
 
 }  // namespace
