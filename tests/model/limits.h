@@ -63,7 +63,14 @@ inline std::string settingText(const ParamValues& values) {
     return text;
 }
 
-/// At r = 0 a model may diverge, but it is never NaN; elsewhere it is finite.
+/// Mirrored sources of a layer thinner than their distance turn the flux back (docs/errata.md).
+inline bool mayBeNegative(const ParamValues& parameters) {
+    const auto boundary = parameters.find("Boundary");
+    return boundary != parameters.end() && boundary->second == ParamValue(std::string("extrapolated"));
+}
+
+/// At r = 0 a model may diverge, but it is never NaN; elsewhere it is finite. What is below the range of float counts
+/// as 0.
 inline void expectNumbers(Evaluator& evaluator, const Model& model) {
     for (const ParamValues& parameters : settings(model))
         for (const auto& [name, medium] : limitCases()) {
@@ -76,8 +83,8 @@ inline void expectNumbers(Evaluator& evaluator, const Model& model) {
                 EXPECT_TRUE(r == 0 ? !std::isnan(value) : std::isfinite(value))
                     << model.id << settingText(parameters) << ", " << name << ", r " << r << " mm, wi.z "
                     << queries[i].wi.z << ": " << value;
-                if (model.file.radial) {
-                    EXPECT_GE(value, 0) << model.id << settingText(parameters) << ", " << name;
+                if (model.file.radial && !mayBeNegative(parameters)) {
+                    EXPECT_GE(value, -1e-38) << model.id << settingText(parameters) << ", " << name;
                 }
             }
         }

@@ -85,8 +85,9 @@ TEST(SumOfModels, ClaimsWhatAllOfItsPartsClaim) {
 
 TEST(SumOfModels, NamesParametersByTheirPartsWhereTwoShareAName) {
     const Model sum = loadModel("better_dipole+directional_dipole+single");
-    EXPECT_THAT(parameterNames(sum), testing::ElementsAre("better_dipole.Moments", "directional_dipole.Moments",
-                                                          "ClampNegative", "ForwardPeak"));
+    EXPECT_THAT(parameterNames(sum),
+                testing::ElementsAre("better_dipole.Moments", "Plane", "Extrapolation", "directional_dipole.Moments",
+                                     "ClampNegative", "ForwardPeak"));
     EXPECT_EQ(parameterName(sum, "single.ForwardPeak"), "ForwardPeak");
     EXPECT_EQ(parameterName(sum, "ForwardPeak"), "ForwardPeak");
     EXPECT_EQ(parameterName(sum, "better_dipole.Moments"), "better_dipole.Moments");
