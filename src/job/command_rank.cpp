@@ -17,7 +17,7 @@ namespace {
 constexpr std::string_view every_material = "all";
 
 // One material may take a minute, all of them no longer.
-constexpr double collisions_of_one = 4e9, collisions_of_all = 1e8;
+constexpr double collisions_of_one = 4e9, collisions_of_all = 7e7;
 
 std::vector<Subject> subjectsOf(const Job& job, Engine& engine, Observer& observer) {
     if (job.scene.material.id != every_material) return {comparableSubjectOf(job, engine)};
@@ -55,9 +55,9 @@ JobResult runRank(const Job& job, Engine& engine, Observer& observer) {
     if (!job.output.empty() && !job.output.ends_with(".html"))
         throw usageError(fmt::format("'{}' is no page", job.output), "-o takes a file that ends in .html");
     const RankEffort effort = effortOf(job, options);
-    std::vector<RankEntry> entries = rankEntries(options.names("models"), options.text("backend"), engine);
-    const std::vector<Subject> subjects = subjectsOf(job, engine, observer);
     const bool all = job.scene.material.id == every_material;
+    std::vector<RankEntry> entries = rankEntries(options.names("models"), all, options.text("backend"), engine);
+    const std::vector<Subject> subjects = subjectsOf(job, engine, observer);
 
     JobResult result;
     std::vector<Ranking> rankings;
@@ -93,7 +93,7 @@ JobResult runRank(const Job& job, Engine& engine, Observer& observer) {
     if (options.text("models") == "all") {
         document["left_out"] = Json::array();
         for (const Model& model : shippedModels()) {
-            const std::string reason = whyNotRanked(model);
+            const std::string reason = whyNotRanked(model, all);
             if (reason.empty()) continue;
             document["left_out"].push_back({{"id", model.id}, {"why", reason}});
             result.text += fmt::format("{} is left out: {}.\n", model.id, reason);
@@ -130,7 +130,7 @@ Command rankCommand() {
                          .min = 0,
                          .max = 1e15,
                          .value = 0.0,
-                         .doc = "of the reference per channel at most, noise or not; 0: 4e9, or 1e8 for all materials"},
+                         .doc = "of the reference per channel at most, noise or not; 0: 4e9, or 7e7 for all materials"},
                         angle,
                         option::bins(48),
                         option::backend(),

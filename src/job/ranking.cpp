@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "base/text.h"
 #include "job/curves.h"
 #include "model/plane.h"
@@ -38,6 +39,30 @@ double costOf(LoadedModel& loaded, double angle_deg) {
     return best / batch;
 }
 
+// What the model answers to each reference, per incident flux.
+std::vector<RankAnswer> answersOf(LoadedModel& loaded, const Medium& medium,
+                                  const std::vector<RankReference>& references, double angle_deg) {
+    loaded.medium = medium;
+    loaded.evaluator->set(medium, loaded.parameters);
+    const double entered = pencilBeam(medium.eta, 0).transmittance;
+    const double entered_oblique = pencilBeam(medium.eta, angle_deg).transmittance;
+    const Rgb total = totalRd(*loaded.evaluator, loaded.model, medium);
+    const Rgb mean_x = modelMeanX(*loaded.evaluator, loaded.model, medium, angle_deg);
+    std::vector<RankAnswer> channels;
+    for (const RankReference& reference : references) {
+        RankAnswer answer{.bin_means = annulusMeans(*loaded.evaluator, loaded.model, medium, 0, reference.edges_mm),
+                          .total = entered * total[reference.channel],
+                          .mean_x_mm = mean_x[reference.channel]};
+        for (Rgb& mean : answer.bin_means) mean = entered * mean;
+        if (!reference.plane.empty())
+            answer.plane = modelPlane(*loaded.evaluator, loaded.model, medium, angle_deg, reference.channel,
+                                      reference.cells, reference.cell_mm);
+        for (double& mean : answer.plane) mean *= entered_oblique;
+        channels.push_back(std::move(answer));
+    }
+    return channels;
+}
+
 // A model of single scattering, to be added to those that leave it out.
 constexpr std::string_view single_id = "single";
 
@@ -48,8 +73,11 @@ bool canTakeSingle(const Model& model) {
 
 }  // namespace
 
-std::string whyNotRanked(const Model& model) {
+std::string whyNotRanked(const Model& model, bool many_materials) {
     if (!readsMedium(model)) return "it does not read the medium";
+    if (many_materials && !model.file.no_wo)
+        return "it reads the direction of exit, over which each value is a mean: name it with --models if there is "
+               "time";
     for (const Param& param : model.file.parameters)
         if (param.unit == "mm" || param.unit == "1/mm")
             return fmt::format("its {} ({}) is not of the medium, so it is about more than a half-space", param.name,
@@ -63,12 +91,13 @@ std::string Ranking::sentence(const RankedModel& model) const {
     return channels.size() > 1 ? fmt::format("in {} {}", channelName(subject.medium, channels[worst]), text) : text;
 }
 
-std::vector<RankEntry> rankEntries(const std::vector<std::string>& names, std::string_view backend, Engine& engine) {
+std::vector<RankEntry> rankEntries(const std::vector<std::string>& names, bool many_materials, std::string_view backend,
+                                   Engine& engine) {
     std::vector<std::string> all = names;
     if (all == std::vector<std::string>{"all"}) {
         all.clear();
         for (const Model& model : shippedModels()) {
-            if (!whyNotRanked(model).empty()) continue;
+            if (!whyNotRanked(model, many_materials).empty()) continue;
             all.push_back(model.id);
             if (canTakeSingle(model)) all.push_back(model.id + "+" + std::string(single_id));
         }
@@ -98,31 +127,15 @@ Ranking rankOn(const Subject& subject, std::vector<RankEntry>& entries, const Ra
         ranking.walks.push_back(walkForRank(medium, c, effort, observer));
         ranking.reference.push_back(ranking.walks.back().reference);
     }
-    const double entered = pencilBeam(medium.eta, 0).transmittance;
-    const double entered_oblique = pencilBeam(medium.eta, effort.angle_deg).transmittance;
-    std::vector<std::vector<RankAnswer>> answers;
-    for (RankEntry& entry : entries) {
+    // Models of one OpenGL context take turns.
+    const auto native = [](const RankEntry& entry) { return entry.loaded.evaluator->backend().starts_with("cpu"); };
+    const int threads = std::ranges::all_of(entries, native) ? effort.threads : 1;
+    std::vector<std::vector<RankAnswer>> answers(entries.size());
+    parallelFor(entries.size(), threads, [&](std::size_t i) {
         if (observer.cancelled()) throw interruptedError();
-        LoadedModel& loaded = entry.loaded;
-        loaded.medium = medium;
-        loaded.evaluator->set(medium, loaded.parameters);
-        const Rgb total = totalRd(*loaded.evaluator, loaded.model, medium);
-        const Rgb mean_x = modelMeanX(*loaded.evaluator, loaded.model, medium, effort.angle_deg);
-        std::vector<RankAnswer> channels;
-        for (const RankReference& reference : ranking.reference) {
-            RankAnswer answer{.bin_means = annulusMeans(*loaded.evaluator, loaded.model, medium, 0, reference.edges_mm),
-                              .total = entered * total[reference.channel],
-                              .mean_x_mm = mean_x[reference.channel]};
-            for (Rgb& mean : answer.bin_means) mean = entered * mean;
-            if (!reference.plane.empty())
-                answer.plane = modelPlane(*loaded.evaluator, loaded.model, medium, effort.angle_deg, reference.channel,
-                                          reference.cells, reference.cell_mm);
-            for (double& mean : answer.plane) mean *= entered_oblique;
-            channels.push_back(std::move(answer));
-        }
-        answers.push_back(std::move(channels));
-        ranking.cost_ns.push_back(costOf(loaded, effort.angle_deg));
-    }
+        answers[i] = answersOf(entries[i].loaded, medium, ranking.reference, effort.angle_deg);
+    });
+    for (RankEntry& entry : entries) ranking.cost_ns.push_back(costOf(entry.loaded, effort.angle_deg));
     ranking.ranked = rankModels(ranking.reference, answers);
     return ranking;
 }

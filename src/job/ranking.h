@@ -34,12 +34,13 @@ struct Ranking {
 };
 
 /// Why "all" leaves a model out: it does not read the medium, or has lengths of its own, such as the thickness of a
-/// slab. Empty: it takes part.
-std::string whyNotRanked(const Model& model);
+/// slab; on many materials also where it takes too long. Empty: it takes part.
+std::string whyNotRanked(const Model& model, bool many_materials);
 
 /// "all": every shipped model that takes part, and where a model leaves single scattering out and one of single
 /// scattering ships, their sum as well. Throws a usage Error when none is named.
-std::vector<RankEntry> rankEntries(const std::vector<std::string>& names, std::string_view backend, Engine& engine);
+std::vector<RankEntry> rankEntries(const std::vector<std::string>& names, bool many_materials, std::string_view backend,
+                                   Engine& engine);
 
 /// Throws an input Error when no channel scatters, interruptedError() when the observer cancels.
 Ranking rankOn(const Subject& subject, std::vector<RankEntry>& entries, const RankEffort& effort, Observer& observer);
