@@ -111,7 +111,8 @@ std::vector<LoadedModel> loadModels(const std::vector<std::string>& names, std::
     std::vector<std::string> all = names;
     if (all == std::vector<std::string>{"all"}) {
         all.clear();
-        for (const Model& model : shippedModels()) all.push_back(model.id);
+        for (const Model& model : shippedModels())
+            if (!ownLength(model)) all.push_back(model.id);
     }
     if (all.empty()) throw usageError("no model was named", "--models dipole,better_dipole, or all");
     std::vector<LoadedModel> loaded;

@@ -78,10 +78,9 @@ std::string whyNotRanked(const Model& model, bool many_materials) {
     if (many_materials && !model.file.no_wo)
         return "it reads the direction of exit, over which each value is a mean: name it with --models if there is "
                "time";
-    for (const Param& param : model.file.parameters)
-        if (param.unit == "mm" || param.unit == "1/mm")
-            return fmt::format("its {} ({}) is not of the medium, so it is about more than a half-space", param.name,
-                               param.unit);
+    if (const Param* param = ownLength(model))
+        return fmt::format("its {} ({}) is not of the medium, so it is about more than a half-space", param->name,
+                           param->unit);
     return {};
 }
 

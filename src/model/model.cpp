@@ -45,6 +45,12 @@ bool readsMedium(const Model& model) {
     return false;
 }
 
+const Param* ownLength(const Model& model) {
+    const auto found = std::ranges::find_if(
+        model.file.parameters, [](const Param& param) { return param.unit == "mm" || param.unit == "1/mm"; });
+    return found == model.file.parameters.end() ? nullptr : &*found;
+}
+
 bool hasDiffuseReflectance(const Model& model) {
     if (!model.parts.empty()) return std::ranges::all_of(model.parts, hasDiffuseReflectance);
     return model.file.diffuse_reflectance.present();

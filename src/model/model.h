@@ -29,6 +29,10 @@ struct Model {
 /// Whether the model's value can depend on the medium: false for measured profiles and for fits in mm.
 bool readsMedium(const Model& model);
 
+/// A parameter with a unit, such as the thickness of a slab: the model is about more than a half-space of the medium.
+/// Null without one.
+const Param* ownLength(const Model& model);
+
 /// Whether an evaluator of it answers diffuseReflectance(): a sum does where all of its parts do.
 bool hasDiffuseReflectance(const Model& model);
 
