@@ -180,7 +180,8 @@ def sanity(searchlight, models):
             "measures one model, and tools/model_pages writes this page.\n\n## Totals\n\n"
             "Light that leaves per light that has entered, under a normal beam: exact (isotropic scattering, "
             "adding-doubling, `tests/data`), and the relative error of each model there. A model marked * leaves single "
-            "scattering out. What a model makes of g is the error of its similarity: the totals of most depend on α′ alone, "
+            "scattering out. `multipole` and `two_layers` are a slab and two layers at their default sizes, so theirs is another "
+            "problem. What a model makes of g is the error of its similarity: the totals of most depend on α′ alone, "
             "the true ones do not.\n")
     for eta in (1, 1.3, 1.5):
         rows = []
