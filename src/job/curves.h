@@ -51,7 +51,8 @@ struct ReferenceOptions {
 
 ReferenceRun runReference(const Medium& medium, const ReferenceOptions& options, Observer& observer);
 
-/// Loads the comma-separated `models` of the job's options ("all": every shipped one of a half-space) for the subject's medium.
+/// Loads the comma-separated `models` of the job's options ("all": every shipped one of a half-space) for the subject's
+/// medium.
 std::vector<LoadedModel> loadModels(const std::vector<std::string>& names, std::string_view backend,
                                     const Subject& subject, Engine& engine);
 

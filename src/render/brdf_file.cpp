@@ -136,8 +136,7 @@ BrdfFile parseBrdf(std::string_view text, std::string_view path) {
 }
 
 std::vector<ParamValue> brdfValues(const BrdfFile& file, const ParamValues& given) {
-    for (const auto& [name, value] : given)
-        findParam(file.parameters, name, fmt::format("parameter of {}", file.path));
+    for (const auto& [name, value] : given) findParam(file.parameters, name, fmt::format("parameter of {}", file.path));
     std::vector<ParamValue> values;
     for (const Param& param : file.parameters) {
         const auto found = given.find(param.name);

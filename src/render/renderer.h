@@ -72,8 +72,8 @@ public:
     void setSettings(RenderSettings settings);
 
     /// The final picture: start(), step() until true, image(). It stays until the next call that draws. Throws Error; a
-    /// stage that threw is redone next time. After a device Error of a context that is lost() the renderer is of no more
-    /// use: another takes its place.
+    /// stage that threw is redone next time. After a device Error of a context that is lost() the renderer is of no
+    /// more use: another takes its place.
     const Image& render(Observer& observer);
 
     /// Brings every stage before the exitance up to date and begins that one.

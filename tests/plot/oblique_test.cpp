@@ -101,7 +101,8 @@ TEST(ZeroContour, IsACircleWhereTheValuesAreThoseOfOne) {
 }
 
 TEST(SliceFigure, OutlinesWhatIsClampedAndScalesByTheReference) {
-    const SlicePanel model{"dipole", {gray(9), gray(0), gray(1e-9), gray(1)}, {}, {gray(9), gray(-1), gray(1), gray(1)}};
+    const SlicePanel model{
+        "dipole", {gray(9), gray(0), gray(1e-9), gray(1)}, {}, {gray(9), gray(-1), gray(1), gray(1)}};
     const SlicePanel walked{"Monte Carlo", {gray(2), gray(0), gray(1), gray(1)}, std::vector<Rgb>(4, gray(0.1)), {}};
     const std::vector<SlicePanel> panels{model, walked};
     const Figure figure = sliceFigure(panels, {.extent_mm = 5, .decades = 3});

@@ -49,8 +49,7 @@ TEST(BrdfFile, ParametersAreSetByNameOrHaveTheirDefaults) {
         }
         return "no error";
     };
-    EXPECT_EQ(refusal({{"roughnes", 0.1}}),
-              "unknown parameter of a.brdf 'roughnes' (valid: roughness, on, tint)");
+    EXPECT_EQ(refusal({{"roughnes", 0.1}}), "unknown parameter of a.brdf 'roughnes' (valid: roughness, on, tint)");
     EXPECT_NE(refusal({{"roughness", 2.0}}), "no error");
 }
 

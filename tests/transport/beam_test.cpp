@@ -30,8 +30,8 @@ Estimate difference(const Estimate& a, const Estimate& b) {
     return {a.mean - b.mean, std::hypot(a.standard_error, b.standard_error), 0};
 }
 
-// The mean square radius of a flat disc is R^2 / 2, as that of a Gaussian which falls to 1/e^2 at R; under oblique light
-// both are longer by 1 / cos along x.
+// The mean square radius of a flat disc is R^2 / 2, as that of a Gaussian which falls to 1/e^2 at R; under oblique
+// light both are longer by 1 / cos along x.
 TEST(Beam, AddsItsOwnSpreadToThatOfThePencil) {
     Judge judge;
     for (const double angle : {0.0, 60.0}) {

@@ -40,8 +40,7 @@ SlabResult walk(const PhaseFunction& phase, double sigma_a, double sigma_s, doub
 
 TEST(PhaseFunction, TheMeanCosineOfATableOfHenyeyGreensteinIsG) {
     const double g = 0.75;
-    const PhaseFunction phase =
-        tabulated(2000, [&](double mu) { return std::pow(1 + g * g - 2 * g * mu, -1.5); });
+    const PhaseFunction phase = tabulated(2000, [&](double mu) { return std::pow(1 + g * g - 2 * g * mu, -1.5); });
     EXPECT_NEAR(meanCosine(phase), g, 1e-5);  // of linear pieces
     EXPECT_NEAR(meanCosine(rayleighPhase()), 0, 1e-12);
 }

@@ -19,11 +19,11 @@ namespace searchlight {
 
 /// One plane layer between smooth Fresnel surfaces. One that neither absorbs nor scatters is clear: glass, or a gap.
 struct SlabLayer {
-    double n = 1;                        ///< refractive index
-    double sigma_a = 0;                  ///< 1/mm
-    double sigma_s = 0;                  ///< 1/mm, not reduced
-    double g = 0;                        ///< Henyey-Greenstein mean cosine, |g| < 1; not read where there is a phase
-    double thickness_mm = 1;             ///< infinity in the last layer: a half-space
+    double n = 1;             ///< refractive index
+    double sigma_a = 0;       ///< 1/mm
+    double sigma_s = 0;       ///< 1/mm, not reduced
+    double g = 0;             ///< Henyey-Greenstein mean cosine, |g| < 1; not read where there is a phase
+    double thickness_mm = 1;  ///< infinity in the last layer: a half-space
     std::optional<PhaseFunction> phase = {};  ///< in place of Henyey-Greenstein
 
     bool clear() const { return sigma_a == 0 && sigma_s == 0; }

@@ -13,13 +13,13 @@ namespace searchlight {
 /// What a walk knows of its slab. Lengths are in mm.
 struct SlabWalk {
     struct Layer {
-        double mfp_mm = 1;         ///< 1 / sigma_t; a huge number where nothing happens
-        double absorbed = 0;       ///< 1 - albedo
-        double counted = 0;        ///< part of the collisions that the tally counts, at least `absorbed`
-        double g = 0;              ///< of Henyey-Greenstein, unless there is a table
-        double thickness_mm = 1;   ///< infinity: the last layer has no lower surface
-        double eta_up = 1;         ///< refractive index of this layer over that above
-        double eta_down = 1;       ///< over that below
+        double mfp_mm = 1;              ///< 1 / sigma_t; a huge number where nothing happens
+        double absorbed = 0;            ///< 1 - albedo
+        double counted = 0;             ///< part of the collisions that the tally counts, at least `absorbed`
+        double g = 0;                   ///< of Henyey-Greenstein, unless there is a table
+        double thickness_mm = 1;        ///< infinity: the last layer has no lower surface
+        double eta_up = 1;              ///< refractive index of this layer over that above
+        double eta_down = 1;            ///< over that below
         PhaseTables::Range phase = {};  ///< in `tables`, in place of g
     };
     std::vector<Layer> layers;
