@@ -57,12 +57,6 @@ QString installedFont() {
     return families.first();
 }
 
-QColor colorOf(std::string_view color, double opacity = 1) {
-    QColor result(fromUtf8(color));
-    result.setAlphaF(static_cast<float>(opacity));
-    return result;
-}
-
 QPolygonF pointsOf(const std::vector<Point>& points) {
     QPolygonF result;
     for (const Point& p : points) result << QPointF(p.x, p.y);
@@ -73,6 +67,13 @@ QPolygonF pointsOf(const std::vector<Point>& points) {
 struct ShapePainter {
     QPainter& painter;
     QString family;
+    const InkFunction& ink;
+
+    QColor colorOf(std::string_view color, double opacity = 1) const {
+        QColor result(ink ? QString::fromStdString(ink(color)) : fromUtf8(color));
+        result.setAlphaF(static_cast<float>(opacity));
+        return result;
+    }
 
     void operator()(const Polyline& line) const {
         if (line.points.size() == 1) return (*this)(Circle{line.points[0], line.stroke.width, line.stroke.color});
@@ -135,11 +136,9 @@ struct ShapePainter {
 };
 
 void paint(QPaintDevice& device, const Drawing& drawing, double scale) {
-    const QString family = installedFont();
     QPainter painter(&device);
-    painter.setRenderHints(QPainter::Antialiasing | QPainter::TextAntialiasing | QPainter::SmoothPixmapTransform);
     painter.scale(scale, scale);
-    for (const Shape& shape : drawing.shapes) std::visit(ShapePainter{painter, family}, shape);
+    paintShapes(painter, drawing.shapes);
 }
 
 // The packet replaces Qt's, which holds the time of writing.
@@ -165,6 +164,12 @@ void eraseDate(QByteArray& pdf) {
 }
 
 }  // namespace
+
+void paintShapes(QPainter& painter, const std::vector<Shape>& shapes, const InkFunction& ink) {
+    static const QString family = installedFont();
+    painter.setRenderHints(QPainter::Antialiasing | QPainter::TextAntialiasing | QPainter::SmoothPixmapTransform);
+    for (const Shape& shape : shapes) std::visit(ShapePainter{painter, family, ink}, shape);
+}
 
 std::string drawingBitmap(const Drawing& drawing, const Figure& figure, const char* format) {
     ensureApplication();

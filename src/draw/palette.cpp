@@ -15,6 +15,11 @@ namespace {
 constexpr std::array<std::uint32_t, 10> viridis{0x440154, 0x482878, 0x3e4989, 0x31688e, 0x26828e,
                                                 0x1f9e89, 0x35b779, 0x6ece58, 0xb5de2b, 0xfde725};
 
+// Okabe and Ito's palette without yellow, which white paper swallows: safe for the colour-blind, and neighbours differ
+// in lightness as long as there are few.
+constexpr std::array<std::string_view, series_color_count> series_colors{"#0072B2", "#E69F00", "#009E73",
+                                                                         "#D55E00", "#CC79A7", "#56B4E9"};
+
 void appendBigEndian(std::string& bytes, std::uint32_t value) {
     for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(value >> shift & 0xff);
 }
@@ -29,6 +34,10 @@ void appendChunk(std::string& bytes, std::string_view type, std::string_view dat
 }
 
 }  // namespace
+
+std::string_view seriesColor(int index) {
+    return series_colors[static_cast<std::size_t>(index) % series_colors.size()];
+}
 
 PaletteColor paletteColor(std::uint8_t index) {
     if (index == unknown_color) return {200, 200, 200};

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "draw/palette.h"
 #include "draw/text_width.h"
 
 namespace searchlight {
@@ -12,10 +13,6 @@ namespace {
 
 constexpr double major_tick = 5, minor_tick = 3;
 constexpr std::string_view frame_color = "#4d4d4d", grid_color = "#e6e6e6";
-
-// Okabe and Ito's palette without yellow, which white paper swallows: safe for the colour-blind, and neighbours differ
-// in lightness as long as there are few.
-constexpr std::array<std::string_view, 6> palette{"#0072B2", "#E69F00", "#009E73", "#D55E00", "#CC79A7", "#56B4E9"};
 
 // Once the colours are used up.
 std::vector<double> cycleDashes(size_t cycle) {
@@ -50,7 +47,8 @@ SeriesLook lookOf(const Series& series) {
     if (series.color == outline_color) return {"#ffffff", 1.6, series.dashed ? dashed : std::vector<double>{}, 0.18};
     if (series.color < 0) return {ink, 1.3, series.dashed ? dashed : std::vector<double>{}, 0.18};
     const size_t color = static_cast<size_t>(series.color);
-    return {palette[color % palette.size()], 1.9, series.dashed ? dashed : cycleDashes(color / palette.size()), 0.16};
+    return {seriesColor(series.color), 1.9,
+            series.dashed ? dashed : cycleDashes(color / static_cast<size_t>(series_color_count)), 0.16};
 }
 
 double labelWidth(const Tick& tick) {

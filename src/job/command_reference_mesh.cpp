@@ -3,12 +3,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <functional>
 #include <optional>
 
 #include "base/error.h"
-#include "base/parallel.h"
 #include "base/version.h"
 #include "geometry/object.h"
 #include "io/image_file.h"
@@ -18,6 +15,7 @@
 #include "job/saved_walks.h"
 #include "job/shared_options.h"
 #include "light/light_sampler.h"
+#include "render/cell_view.h"
 #include "render/view.h"
 #include "transport/mesh/cell_picture.h"
 #include "transport/mesh/reference_body.h"
@@ -26,52 +24,7 @@ namespace searchlight {
 
 namespace {
 
-constexpr int kPixelRays = 3;      // per side of a pixel: edges are smooth, and cells blend
 constexpr double kCellPixels = 4;  // area of a cell in pixels, unless it is given
-
-// What stands behind a ray: a cell and the cosine between ray and normal.
-struct Seen {
-    std::uint32_t cell = 0;
-    double cosine = 0;
-};
-using See = std::function<std::optional<Seen>(Vec3 eye, Vec3 direction)>;
-
-See seeing(const MeshBody& body) {
-    return [&body](Vec3 eye, Vec3 direction) -> std::optional<Seen> {
-        const auto hit = body.rays().intersect({toFloat(eye), toFloat(direction)});
-        if (!hit) return {};
-        return Seen{body.cells().at(hit->triangle, hit->u, hit->v), -dot(direction, toDouble(hit->normal))};
-    };
-}
-
-See seeing(const Ball& ball) {
-    return [&ball](Vec3 eye, Vec3 direction) -> std::optional<Seen> {
-        const double b = dot(eye, direction), c = dot(eye, eye) - ball.radius() * ball.radius();
-        if (b * b <= c || b > 0) return {};
-        const Vec3 normal = normalize(eye + (-b - std::sqrt(b * b - c)) * direction);
-        return Seen{ball.cells().at(normal), -dot(direction, normal)};
-    };
-}
-
-CellView viewOf(const View& camera, const See& see, double eta, int threads) {
-    std::vector<std::vector<CellSample>> rows(static_cast<std::size_t>(camera.height));
-    parallelFor(rows.size(), threads, [&](std::size_t y) {
-        for (int x = 0; x < camera.width; ++x)
-            for (int i = 0; i < kPixelRays * kPixelRays; ++i) {
-                const double dx = (i % kPixelRays + 0.5) / kPixelRays, dy = (i / kPixelRays + 0.5) / kPixelRays;
-                const Vec3 direction = normalize(camera.direction(x + dx, static_cast<double>(y) + dy));
-                const std::optional<Seen> seen = see(camera.eye, direction);
-                if (!seen || !(seen->cosine > 0)) continue;
-                rows[y].push_back({static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(camera.width) +
-                                       static_cast<std::uint32_t>(x),
-                                   seen->cell, 1.0f / (kPixelRays * kPixelRays),
-                                   static_cast<float>(exitFactor(eta, seen->cosine))});
-            }
-    });
-    CellView view{camera.width, camera.height, {}};
-    for (const auto& row : rows) view.samples.insert(view.samples.end(), row.begin(), row.end());
-    return view;
-}
 
 struct Setup {
     Subject subject;
@@ -219,7 +172,7 @@ JobResult finish(const Job& job, const Setup& setup, const Body& body, std::stri
     addTotals(document, channels);
 
     if (!job.output.empty()) {
-        const CellView view = viewOf(setup.view, seeing(body), setup.subject.medium.eta, setup.walk.threads);
+        const CellView view = cellView(setup.view, body, setup.subject.medium.eta, setup.walk.threads);
         const CellValues exitance = valuesOf(channels, &BodyResult::exitance);
         ImageFile file;
         file.image = pictureOfRadiance(view, exitance);

@@ -17,6 +17,7 @@ Command referenceSphereCommand();
 Command referenceMeshCommand();
 Command mcmlCommand();
 Command renderCommand();
+Command spheresCommand();
 Command sweepCommand();
 Command meshCommand();
 Command pointsCommand();

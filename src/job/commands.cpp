@@ -18,6 +18,7 @@ std::span<const Command> commands() {
         referenceMeshCommand(),
         mcmlCommand(),
         renderCommand(),
+        spheresCommand(),
         sweepCommand(),
         meshCommand(),
         pointsCommand(),

@@ -62,7 +62,7 @@ Job parseJob(std::string_view source, std::string_view path) {
     const JsonText text(source, path);
     checkFormat(text);
     const nlohmann::json& root = text.root();
-    static const std::vector<std::string> keys{"format", "command", "scene", "options", "seed", "output"};
+    static const std::vector<std::string> keys{"format", "command", "scene", "options", "seed", "output", "window"};
     for (const auto& [key, value] : root.items())
         if (std::ranges::find(keys, key) == keys.end()) {
             const Error unknown = unknownName(ErrorKind::input, "key", key, keys);
@@ -96,6 +96,10 @@ Job parseJob(std::string_view source, std::string_view path) {
         need("output", root["output"].is_string(), "expected a path");
         job.output = root["output"];
     }
+    if (root.contains("window")) {
+        need("window", root["window"].is_object(), "expected an object");
+        job.window = root["window"].dump();
+    }
     return job;
 }
 
@@ -117,6 +121,7 @@ std::string jobJson(const Job& job) {
             json["options"][param.name] = valueJson(given->second);
     if (command.uses_seed) json["seed"] = job.seed;
     if (!job.output.empty()) json["output"] = job.output;
+    if (!job.window.empty()) json["window"] = Json::parse(job.window);
     return json.dump(1);
 }
 

@@ -18,11 +18,12 @@ struct Job {
     ParamValues options;  ///< by the names of the command's Params; absent: default
     std::uint64_t seed = 1;
     std::string output;  ///< a file or folder; empty: only the result's text
+    std::string window;  ///< a JSON object that the window keeps beside the job; it changes no result. Empty: none
 };
 
-/// `{"format": "searchlight-job/1", "command", "scene", "options", "seed", "output"}`. Throws an input Error with file,
-/// line and column for JSON that cannot be read, with the JSON pointer for a value that makes no sense; a newer format
-/// and unknown keys are refused by name.
+/// `{"format": "searchlight-job/1", "command", "scene", "options", "seed", "output", "window"}`. Throws an input Error
+/// with file, line and column for JSON that cannot be read, with the JSON pointer for a value that makes no sense; a
+/// newer format and unknown keys are refused by name.
 Job parseJob(std::string_view text, std::string_view path);
 
 /// The text that parseJob reads back as the same job.

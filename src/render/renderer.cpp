@@ -363,4 +363,10 @@ bool Renderer::step(Observer& observer) { return impl_->step(observer); }
 const Image& Renderer::image(Observer&) { return impl_->image(); }
 const RenderReport& Renderer::report() const { return impl_->report; }
 
+RenderStages Renderer::stages() const {
+    return {&impl_->object, &impl_->points(), &impl_->irradiance, &impl_->visible};
+}
+
+void Renderer::forgetMaterial() { impl_->keys[static_cast<std::size_t>(Stage::material)].clear(); }
+
 }  // namespace searchlight

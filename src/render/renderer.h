@@ -61,6 +61,14 @@ struct RenderReport {
     const StageReport& operator[](Stage stage) const { return stages[static_cast<std::size_t>(stage)]; }
 };
 
+/// Results of stages, for pictures of something else than the light that leaves. Valid until the next start().
+struct RenderStages {
+    const Object* object = nullptr;
+    const PointCloud* points = nullptr;      ///< of irradiance
+    const Irradiance* irradiance = nullptr;  ///< at those points
+    const VisibleSurface* visible = nullptr;
+};
+
 /// Keeps every stage's result. One thread at a time.
 class Renderer {
 public:
@@ -84,6 +92,12 @@ public:
     const Image& image(Observer& observer);
 
     const RenderReport& report() const;
+
+    /// Requires start().
+    RenderStages stages() const;
+
+    /// What the MaterialSource would give has changed though the scene has not: a model's file was edited.
+    void forgetMaterial();
 
 private:
     struct Impl;

@@ -1,0 +1,86 @@
+// Makes the pictures of the object view, on the engine's thread. What stays from one to the next stays in its
+// renderers.
+#pragma once
+
+#include <QImage>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "base/image.h"
+#include "gui/tasks/tasks.h"
+#include "io/image_file.h"
+#include "job/subject.h"
+#include "render/renderer.h"
+
+namespace searchlight::gui {
+
+/// What one side of the view shows.
+struct PictureRequest {
+    Scene scene;
+    std::string technique = "hierarchical";
+    ParamValues technique_options;
+    std::uint64_t seed = 1;
+    int width = 0, height = 0;  ///< of the whole picture, device pixels
+    double preview = 1;         ///< fraction of it that is computed
+    bool moving = false;        ///< fewer rays at edges, and no new points: soon rather than well
+    std::string layer = "picture";
+};
+
+/// One side, done.
+struct Picture {
+    std::shared_ptr<const Image> image;  ///< linear, of the computed size; null: none
+    RenderReport report;
+    Subject subject;
+    double ms = 0;  ///< on the engine's thread
+};
+
+/// Lives on one lane's thread.
+class PictureMaker {
+public:
+    /// `side`: "a", "b": each has a renderer of its own. Throws as Renderer does.
+    Picture make(const std::string& side, const PictureRequest& request, TaskContext& context);
+
+    /// That side is not shown any more.
+    void forget(const std::string& side) { sides_.erase(side); }
+
+    /// The file of that model was written.
+    void modelFileChanged(const std::string& id);
+
+    /// Before the engine ends.
+    void clear();
+
+private:
+    struct Side {
+        Subject subject;
+        bool has_context = false;
+        std::unique_ptr<Renderer> renderer;
+        std::size_t points = 0;  ///< of the last picture
+    };
+    struct LoadedFile {
+        Model model;
+        std::shared_ptr<Evaluator> evaluator;
+    };
+
+    Picture makeOnce(const std::string& side, const PictureRequest& request, TaskContext& context);
+    RenderMaterial materialOf(const Scene& scene, Engine& engine, Subject& subject);
+
+    std::map<std::string, Side> sides_;
+    std::map<std::string, LoadedFile> files_;  ///< models that OpenGL compiled, by id: a slider must not compile again
+};
+
+/// Where a linear picture goes before it is painted: exposure, curve and channel. Premultiplied, `image`'s size.
+QImage shownImage(const Image& image, const ToneMap& tone_map, const std::string& channel, int threads);
+
+/// (a - b) over the mean luminance of b, in a diverging scale whose ends are -scale and +scale; transparent where
+/// neither covers. Both have one size.
+QImage differenceImage(const Image& a, const Image& b, double scale, const std::string& channel, int threads);
+
+/// The colour of a difference: -1 is blue, 0 neutral, 1 orange.
+QRgb differenceColor(double value);
+
+/// Relative root mean square of (a - b) over the mean of b where both cover, per luminance; NaN when b is dark.
+double relativeDifference(const Image& a, const Image& b);
+
+}  // namespace searchlight::gui
