@@ -30,13 +30,14 @@ const std::vector<Folder>& folders() {
         {"model", {"base", "language", "gl", "scene"}},
         {"light", {"base", "gl", "scene", "io", "geometry", "model"}},
         {"transport", {"base", "scene", "geometry", "model", "light"}},
-        {"render", {"base", "language", "gl", "scene", "io", "geometry", "model", "light", "transport"}},
-        {"plot", {"base", "scene", "model", "transport"}},
-        {"validate", {"base", "language", "gl", "scene", "model", "transport", "plot"}},
+        {"kernel", {"base", "model"}},
+        {"render", {"base", "language", "gl", "scene", "io", "geometry", "model", "light", "transport", "kernel"}},
+        {"plot", {"base", "scene", "model", "transport", "kernel"}},
+        {"validate", {"base", "language", "gl", "scene", "model", "transport", "kernel", "plot"}},
         {"draw", {"base"}},
         {"job",
-         {"base", "language", "gl", "scene", "io", "geometry", "model", "light", "transport", "render", "plot",
-          "validate", "draw"}},
+         {"base", "language", "gl", "scene", "io", "geometry", "model", "light", "transport", "kernel", "render",
+          "plot", "validate", "draw"}},
     };
     return list;
 }
