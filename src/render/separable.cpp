@@ -7,12 +7,13 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/parallel.h"
+#include "gl/context.h"
 #include "kernel/ground_truth.h"
 #include "kernel/preintegrated.h"
 #include "kernel/taps.h"
 #include "render/screen/back_light.h"
 #include "render/screen/screen_filter.h"
+#include "render/screen/screen_filter_gl.h"
 #include "render/screen/strength_map.h"
 
 namespace searchlight {
@@ -57,6 +58,10 @@ double number(const ParamValues& options, std::string_view name) {
 // What is asked for again is kept.
 class Separable final : public Technique {
 public:
+    explicit Separable(gl::Context* context) : context_(context) {
+        if (context) device_.emplace(*context);
+    }
+
     void start(const RenderInput& input, const ParamValues& options, Observer& observer) override {
         const auto begin = Clock::now();
         const RenderInput::Versions& now = input.versions;
@@ -67,7 +72,10 @@ public:
             const auto before = options_.find(name);
             return before == options_.end() || before->second != options.find(name)->second;
         };
-        if (view) samples_ = screenSamples(*input.view, *input.visible, input.threads);
+        if (view) {
+            samples_ = screenSamples(*input.view, *input.visible, input.threads);
+            if (device_) device_->setSamples(*samples_);
+        }
         if (material || changed("kernel") || changed("taps")) makeKernel(*input.profile, options);
         const double samples_ms = milliseconds(begin);
 
@@ -92,6 +100,7 @@ public:
                    .trust = chosen(trust_words, options, "trust"),
                    .width = number(options, "kernel_width"),
                    .reach = number(options, "reach"),
+                   .fallback = number(options, "fallback"),
                    .strength = strength_,
                    .threads = input.threads};
     }
@@ -105,7 +114,7 @@ public:
                                total_.b > 0 ? 1 / total_.b : 0};
         for (std::size_t i = 0; i < light.size(); ++i)
             light[i] = toFloat(toDouble(light[i]) + per_total * toDouble(back_[i]));
-        exitance_ = filterScreen(*samples_, light, *taps_, filter_);
+        exitance_ = device_ ? device_->filter(light, *taps_, filter_) : filterScreen(*samples_, light, *taps_, filter_);
         const Rgbf total = toFloat(total_);
         for (Rgbf& m : exitance_) m = {total.r * m.r, total.g * m.g, total.b * m.b};
         stage_ms_["filter"] = milliseconds(begin);
@@ -122,7 +131,7 @@ public:
                 .approximates =
                     "light is moved within the picture alone, by a separable kernel in the tangent plane; "
                     "what entered out of sight counts along the lines to the lights",
-                .device = "cpu"};
+                .device = context_ ? "gl " + context_->info().renderer : "cpu"};
     }
 
 private:
@@ -134,6 +143,8 @@ private:
         total_ = truth.total();
     }
 
+    gl::Context* context_;
+    std::optional<ScreenFilterGl> device_;  // where the passes run, if not on the CPU
     std::optional<ScreenSamples> samples_;
     std::optional<Taps> taps_;
     Rgb total_;
@@ -166,6 +177,11 @@ std::vector<Param> separableOptions() {
         choice("trust", wordsOf(trust_words),
                "what makes a pixel that lies off the kernel's plane count less: its distance or its depth"),
         {.name = "reach", .min = 0.01, .max = 1000, .value = 1.0, .doc = "of that, in mean offsets of the kernel"},
+        {.name = "fallback",
+         .min = 0,
+         .max = 1,
+         .value = 1.0,
+         .doc = "of the middle's light, what stands for a place that is not seen or not trusted"},
         {.name = "kernel_width", .min = 0, .max = 100, .value = 1.0, .doc = "times the width of the kernel"},
         {.name = "strength",
          .type = ParamType::text,
@@ -176,6 +192,6 @@ std::vector<Param> separableOptions() {
                "that the light sees, without the gaps or with them")};
 }
 
-std::unique_ptr<Technique> makeSeparable(gl::Context*) { return std::make_unique<Separable>(); }
+std::unique_ptr<Technique> makeSeparable(gl::Context* context) { return std::make_unique<Separable>(context); }
 
 }  // namespace searchlight

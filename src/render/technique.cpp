@@ -48,6 +48,7 @@ std::span<const TechniqueEntry> techniques() {
          .summary = "a separable kernel blurs the light of the picture's pixels, as games do",
          .options = with(separableOptions(), normalBeamOption()),
          .per_pixel = true,
+         .gl = true,
          .make = makeSeparable},
     };
     return entries;

@@ -184,14 +184,12 @@ std::vector<Rgbf> backLight(const VisibleSurface& visible, const Scene& scene, c
                 const Vec3 entry = line.origin + line.out * line.wi;
                 const Vec3 normal = normalAt(object.mesh, *line.way_out);
                 const double cosine = dot(normal, line.wi);
-                // What the eye sees there is the filter's.
-                if (cosine <= 0 || dot(normal, visible.eye - entry) > 0) continue;
+                if (cosine <= 0) continue;
                 const double way = options.thickness == Thickness::material ? line.material : line.out;
                 Rgb flux = static_cast<double>(transmitted_cosine(static_cast<float>(cosine))) * beam.irradiance;
                 if (beam.filter) flux = flux * (*beam.filter)(entry, spacing_mm);
                 if (beam.from_point) flux = std::pow(beam.unit_mm / (line.end - line.out), 2) * flux;
-                sums[line.sample - begin] =
-                    sums[line.sample - begin] + flux * (total - profile.encircled(way * cosine));
+                sums[line.sample - begin] = sums[line.sample - begin] + flux * (total - profile.encircled(way));
             }
         }
         for (std::size_t i = begin; i < end; ++i) result[i] = toFloat(sums[i - begin]);

@@ -30,13 +30,15 @@ struct BackLightOptions {
     int threads = 0;
 };
 
-/// Exitance per sample of `visible` by light that entered at surfaces turned away from the eye: per light
+/// Exitance per sample of `visible` by light that comes out where its source is not seen: per light
 ///
-///     T(h) T12 E,    T(h) = integral of R_d((r^2 + h^2)^1/2) 2 pi r dr = total - encircled(h),
+///     T(s) T12 E,    T(s) = integral of R_d((r^2 + s^2)^1/2) 2 pi r dr = total - encircled(s),
 ///
-/// h being the distance from the point to the tangent plane where the light came in: exact for a slab under even light,
-/// whose R_d is a function of the distance as other techniques take it. Of environments every direction is shadowed by
-/// the object. Throws interruptedError() when cancelled, and what opening the scene's pictures throws.
+/// s being the way to where it came in: exact behind a slab under even light that falls straight onto it, R_d being a
+/// function of the distance as other techniques take it. Under slanting light the nearest way through is shorter than
+/// s, and a plane there gives more than the object, whose back is bent: of lengths between the two s was nearest to the
+/// sum over points (docs/separable.md). Of environments every direction is shadowed by the object. Throws
+/// interruptedError() when cancelled, and what opening the scene's pictures throws.
 std::vector<Rgbf> backLight(const VisibleSurface& visible, const Scene& scene, const Object& object,
                             const RayScene& rays, const Profile& profile, const BackLightOptions& options,
                             Observer& observer);

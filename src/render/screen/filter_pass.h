@@ -49,7 +49,7 @@ struct FilterPass {
     FilterLine::Course course = FilterLine::Course::any;
     FilterAxes axes = FilterAxes::surface;
     FilterTrust trust = FilterTrust::distance;
-    float width = 1, per_reach = 0;
+    float width = 1, per_reach = 0, fallback = 1;
     std::span<const float> strength;     ///< padded, or empty
     std::array<const float*, 3> grid{};  ///< light of who stands for the cell, per channel
     std::array<const float*, 3> light{};

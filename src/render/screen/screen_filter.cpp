@@ -96,6 +96,7 @@ void filterPart(const FilterPass& pass, std::size_t begin, std::size_t end) {
     const FloatV last_x = hn::Set(d, static_cast<float>(samples.width) + 0.5f);
     const FloatV last_y = hn::Set(d, static_cast<float>(samples.height) + 0.5f);
     const FloatV focal = hn::Set(d, samples.focal), per_focal = hn::Set(d, 1 / samples.focal);
+    const FloatV fallback = hn::Set(d, pass.fallback);
     const IntV stride = hn::Set(di, samples.stride());
     const float *const red = pass.grid[0], *const green = pass.grid[1], *const blue = pass.grid[2];
     const float* const depths = samples.depth.data();
@@ -163,7 +164,7 @@ void filterPart(const FilterPass& pass, std::size_t begin, std::size_t end) {
                 texel(left, bottom, hn::Mul(hn::Sub(one, fx), fy));
                 texel(right, bottom, hn::Mul(fx, fy));
             }
-            const FloatV missing = hn::Sub(one, sum);
+            const FloatV missing = hn::Mul(fallback, hn::Sub(one, sum));
             const auto add = [&](float weight, FloatV from, FloatV& to, FloatV& rest) HWY_ATTR {
                 to = hn::MulAdd(hn::Set(d, weight), from, to);
                 rest = hn::MulAdd(hn::Set(d, weight), missing, rest);
@@ -289,6 +290,7 @@ std::vector<Rgbf> filterScreen(const ScreenSamples& samples, std::span<const Rgb
                               .trust = options.trust,
                               .width = static_cast<float>(options.width),
                               .per_reach = perReach(taps, options),
+                              .fallback = static_cast<float>(options.fallback),
                               .strength = strength,
                               .grid = read(from_grid),
                               .light = read(from),

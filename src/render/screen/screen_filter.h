@@ -33,6 +33,8 @@ struct FilterOptions {
     double width = 1;  ///< times the offsets of the taps
     /// In multiples of the kernel's mean |offset|: from where on nothing is trusted, or how far the kernel falls by e.
     double reach = 1;
+    /// What stands for light that is not trusted, not seen or outside the picture: so much of the middle's.
+    double fallback = 1;
     std::span<const float> strength;  ///< times `width`, per sample; empty: 1 everywhere
     int threads = 0;                  ///< 0: all
     Observer* observer = nullptr;     ///< asked between rows of work whether to stop: interruptedError()
@@ -45,7 +47,7 @@ double meanOffset(const Taps& taps);
 /// `light` (per sample, any unit) filtered by every term of `taps` in two passes each and added up: per sample the sum
 /// over the taps of weight times the light at the pixel that the tap falls on, bilinear. Samples of a pixel that others
 /// stand for read the same grid and themselves in the middle. What is not trusted, not seen or outside the picture is
-/// the middle's light, so that even light stays as it is. The result does not depend on `threads`.
+/// the middle's light: with a fallback of 1 even light stays as it is. The result does not depend on `threads`.
 std::vector<Rgbf> filterScreen(const ScreenSamples& samples, std::span<const Rgbf> light, const Taps& taps,
                                const FilterOptions& options);
 
