@@ -41,6 +41,30 @@ double LineKernel::operator()(double x_mm) const {
            t * (1 - 3 * u) * density_[i + 1];
 }
 
+double LineKernel::transform(double omega) const {
+    // Gauss-Legendre with 3 points, exact for the parabola times what cos is within half a radian.
+    constexpr double at[] = {0.11270166537925831, 0.5, 0.88729833462074169};
+    constexpr double weight[] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
+    double sum = 0;
+    for (std::size_t i = 0; i + 1 < x_.size(); ++i) {
+        const double h = x_[i + 1] - x_[i], mean = (integral_[i + 1] - integral_[i]) / h;
+        const double first = density_[i], last = density_[i + 1];
+        // The density is first + t slope + t^2 bend.
+        const double slope = 6 * mean - 4 * first - 2 * last, bend = 3 * (first + last) - 6 * mean;
+        if (omega * h < 0.5) {
+            for (int k = 0; k < 3; ++k)
+                sum += h * weight[k] * (first + at[k] * (slope + at[k] * bend)) * std::cos(omega * (x_[i] + at[k] * h));
+            continue;
+        }
+        // By parts until nothing is left of the parabola.
+        const double w = omega * h, c0 = std::cos(omega * x_[i]), s0 = std::sin(omega * x_[i]);
+        const double c1 = std::cos(omega * x_[i + 1]), s1 = std::sin(omega * x_[i + 1]);
+        sum += h * ((last * s1 - first * s0) / w + ((slope + 2 * bend) * c1 - slope * c0) / (w * w) -
+                    2 * bend * (s1 - s0) / (w * w * w));
+    }
+    return delta_ + 2 * sum;
+}
+
 LineKernel LineKernel::scaled(double factor) const {
     LineKernel result = *this;
     for (double& value : result.integral_) value *= factor;

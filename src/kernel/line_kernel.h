@@ -24,6 +24,9 @@ public:
     /// Integral of the density over [from, to], from <= to, without the delta.
     double integral(double from_mm, double to_mm) const { return fromZero(to_mm) - fromZero(from_mm); }
 
+    /// Integral of a(x) cos(omega x) over the line, omega >= 0 in 1/mm, with the delta; exact for the tabulated curve.
+    double transform(double omega) const;
+
     /// Integral over the line, with the delta.
     double mass() const { return delta_ + (x_.empty() ? 0 : 2 * integral_.back()); }
 

@@ -1,0 +1,61 @@
+#include "kernel/judge.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "kernel/preintegrated.h"
+
+namespace searchlight {
+
+namespace {
+
+double sideOf(const GroundTruth& truth) {
+    std::vector<double> radii;
+    for (int c = 0; c < Rgb::channels; ++c)
+        if (truth.scatters(c)) radii.push_back(truth.radiusOf(0.5, c));
+    if (radii.empty()) return 1;
+    std::ranges::sort(radii);
+    return 16 * radii[radii.size() / 2];
+}
+
+}  // namespace
+
+Judge::Judge(const GroundTruth& truth, const JudgeOptions& options)
+    : cells_(cellKernel(truth, options.grid.cell_mm > 0 ? options.grid : gridOf(truth))),
+      pixel_mm_((options.side_mm > 0 ? options.side_mm : sideOf(truth)) / options.size),
+      spectrum_(lineSpread(truth), std::numbers::pi / (options.size * pixel_mm_), 1.5 * std::numbers::pi / pixel_mm_) {
+    for (const Signal& signal : signals()) {
+        inputs_.push_back(signal.make(options.size));
+        exact_.push_back(exactFilter(inputs_.back(), spectrum_, pixel_mm_));
+    }
+}
+
+std::vector<Rgb> Judge::imageRms(const Taps& taps, bool turned) const {
+    std::vector<Rgb> errors;
+    for (std::size_t i = 0; i < inputs_.size(); ++i) {
+        const Image image = tapsFilter(inputs_[i], taps, {.pixel_mm = pixel_mm_, .turned = turned});
+        Rgb sum;
+        for (std::size_t k = 0; k < image.pixels.size(); ++k) {
+            const Rgba &a = image.pixels[k], &b = exact_[i].pixels[k];
+            const Rgb difference{a.r - b.r, a.g - b.g, a.b - b.b};
+            sum = sum + difference * difference;
+        }
+        sum = (1.0 / static_cast<double>(image.pixels.size())) * sum;
+        errors.push_back({std::sqrt(sum.r), std::sqrt(sum.g), std::sqrt(sum.b)});
+    }
+    return errors;
+}
+
+double Judge::overall(const std::vector<Rgb>& image_rms) {
+    double sum = 0;
+    for (const Rgb& rms : image_rms)
+        for (int c = 0; c < Rgb::channels; ++c) sum += rms[c] * rms[c];
+    return std::sqrt(sum / (3 * static_cast<double>(image_rms.size())));
+}
+
+Rgb Judge::kernelRms(const SeparableKernel& kernel) const {
+    return searchlight::kernelRms(cellKernel(kernel, cells_.edges), cells_);
+}
+
+}  // namespace searchlight

@@ -1,0 +1,46 @@
+// How far a kernel is from the ground truth: in its own space, and in pictures.
+#pragma once
+
+#include <vector>
+
+#include "kernel/cells.h"
+#include "kernel/filter.h"
+#include "kernel/signals.h"
+
+namespace searchlight {
+
+struct JudgeOptions {
+    int size = 128;      ///< of the pictures, pixels
+    double side_mm = 0;  ///< of the pictures; 0: 16 times the half-energy radius of the middle channel
+    CellGrid grid;       ///< of kernel space; a cell of 0: gridOf the truth
+};
+
+/// What one kernel is judged against, made once: pictures of all signals, and what the ground truth makes of them.
+class Judge {
+public:
+    explicit Judge(const GroundTruth& truth, const JudgeOptions& options = {});
+
+    /// Root mean square difference of each signal's picture, per channel, in the order of signals(); pictures lie
+    /// within [0, 1].
+    std::vector<Rgb> imageRms(const Taps& taps, bool turned = false) const;
+
+    /// One number: over all signals and channels.
+    static double overall(const std::vector<Rgb>& image_rms);
+
+    /// [kernelRms]: relative to the ground truth's own root mean square.
+    Rgb kernelRms(const SeparableKernel& kernel) const;
+
+    const CellKernel& cells() const { return cells_; }
+    const RadialSpectrum& spectrum() const { return spectrum_; }
+    const std::vector<Image>& inputs() const { return inputs_; }
+    const std::vector<Image>& exact() const { return exact_; }
+    double pixel() const { return pixel_mm_; }  ///< mm
+
+private:
+    CellKernel cells_;
+    double pixel_mm_;
+    RadialSpectrum spectrum_;
+    std::vector<Image> inputs_, exact_;
+};
+
+}  // namespace searchlight
