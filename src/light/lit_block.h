@@ -13,7 +13,7 @@
 namespace searchlight {
 
 /// What is known of a point's view of a light before its ray is traced.
-enum class View : std::uint8_t { unknown, open, blocked };
+enum class ViewOfLight : std::uint8_t { unknown, open, blocked };
 
 /// At most `capacity` consecutive points, unpacked for vector arithmetic. One per thread at work.
 class LitBlock {
@@ -43,14 +43,14 @@ public:
     /// Calls facing(i, cosine, visible) for the points that face `wi`; a ray is traced for those of which `views` (one
     /// per point, or none) knows nothing.
     template <class Facing>
-    void forEachFacing(Vec3f wi, std::span<const View> views, const Facing& facing) {
+    void forEachFacing(Vec3f wi, std::span<const ViewOfLight> views, const Facing& facing) {
         for (std::size_t i = 0; i < count_; ++i) cosines_[i] = nx_[i] * wi.x + ny_[i] * wi.y + nz_[i] * wi.z;
         std::size_t traced = 0;
         for (std::uint32_t i = 0; i < count_; ++i) {
             if (!(cosines_[i] > 0)) continue;
-            const View view = !rays_ ? View::open : views.empty() ? View::unknown : views[i];
-            if (view != View::unknown) {
-                facing(i, cosines_[i], view == View::open);
+            const ViewOfLight view = !rays_ ? ViewOfLight::open : views.empty() ? ViewOfLight::unknown : views[i];
+            if (view != ViewOfLight::unknown) {
+                facing(i, cosines_[i], view == ViewOfLight::open);
                 continue;
             }
             indices_[traced] = i;

@@ -19,12 +19,14 @@ namespace {
 void sumDisc(LitBlock& block, const DiscSamples& disc, const TransmittedCosine& transmitted_cosine,
              std::span<float> sums) {
     const std::size_t pilot = std::max<std::size_t>(1, disc.directions.size() / 4);
-    std::array<View, LitBlock::capacity> views{};
+    std::array<ViewOfLight, LitBlock::capacity> views{};
     std::array<bool, LitBlock::capacity> open{}, blocked{};
     for (std::size_t s = 0; s < disc.directions.size(); ++s) {
         if (s == pilot)
             for (std::size_t i = 0; i < block.size(); ++i)
-                views[i] = open[i] == blocked[i] ? View::unknown : open[i] ? View::open : View::blocked;
+                views[i] = open[i] == blocked[i] ? ViewOfLight::unknown
+                           : open[i]             ? ViewOfLight::open
+                                                 : ViewOfLight::blocked;
         block.forEachFacing(disc.directions[s], views, [&](std::uint32_t i, float cosine, bool visible) {
             (visible ? open : blocked)[i] = true;
             if (visible) sums[i] += transmitted_cosine(cosine);

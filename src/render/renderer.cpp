@@ -54,8 +54,8 @@ double wantedPointCount(double area_mm2, const Medium& medium) {
 }  // namespace
 
 std::string_view stageName(Stage stage) {
-    constexpr std::string_view names[stage_count] = {"object",  "rays",     "material",   "points", "irradiance",
-                                                     "visible", "exitance", "background", "coat",   "shade"};
+    constexpr std::string_view names[stage_count] = {"object",     "rays",     "material",   "points", "visible",
+                                                     "irradiance", "exitance", "background", "coat",   "shade"};
     return names[static_cast<std::size_t>(stage)];
 }
 
@@ -91,6 +91,7 @@ struct Renderer::Impl {
     PointCloud sampled;  // of a mesh; a cloud is its own points
     LitPoints lit;       // the points as shadow rays see them, for every light
     std::string lit_from, spacing_from;
+    std::uint64_t lit_version = 0;  // of the points that lit_from names
     Irradiance irradiance;
     View view;
     VisibleRaster raster;
@@ -126,6 +127,8 @@ struct Renderer::Impl {
         made_from = key;
     }
 
+    const TechniqueEntry& wanted() const { return findTechnique(settings.technique); }
+
     const PointCloud& points() const { return object.isMesh() ? sampled : object.cloud; }
 
     void refreshObject() {
@@ -152,7 +155,7 @@ struct Renderer::Impl {
     }
 
     void refreshPoints(Observer& observer) {
-        if (!object.isMesh()) return;
+        if (!object.isMesh() || wanted().per_pixel) return;
         PointOptions options{.count = settings.points, .seed = settings.seed, .threads = settings.threads};
         if (options.count == 0) options.count = defaultPointCount(area_mm2, material.medium);
         refresh(Stage::points, fmt::format("{} {} {}", runs(Stage::rays), options.count, options.seed), [&] {
@@ -169,23 +172,25 @@ struct Renderer::Impl {
                                         .light_samples = settings.light_samples,
                                         .seed = settings.seed,
                                         .threads = settings.threads};
+        const bool per_pixel = wanted().per_pixel;
+        const std::string places =
+            per_pixel ? fmt::format("seen {}", runs(Stage::visible)) : fmt::format("points {}", runs(Stage::points));
         const std::string key =
-            fmt::format("{} {} {} {} {} {} {} {}", settings.gl, runs(Stage::rays), runs(Stage::points), options.eta,
-                        options.beams, options.light_samples, options.seed, keyOf(scene, &Scene::lights));
+            fmt::format("{} {} {} {} {} {} {} {}", settings.gl, runs(Stage::rays), places, options.eta, options.beams,
+                        options.light_samples, options.seed, keyOf(scene, &Scene::lights));
         const auto compute = [&] {
-            const SurfacePoints at{points().positions, points().normals};
-            if (settings.gl) {
-                irradiance = onGl().irradiance(at, runs(Stage::points) + runs(Stage::object), scene, object, *rays,
-                                               options, observer);
-                return;
-            }
-            const std::string of = fmt::format("{} {}", runs(Stage::rays), runs(Stage::points));
+            const SurfacePoints at = per_pixel ? SurfacePoints{visible.positions, visible.normals}
+                                               : SurfacePoints{points().positions, points().normals};
+            const std::string of = fmt::format("{} {} {}", settings.gl, runs(Stage::rays), places);
             if (lit_from != of) {
                 lit_from.clear();
-                lit = prepareLitPoints(at, object, &*rays, options.normals, options.threads, observer);
+                ++lit_version;
+                if (!settings.gl)
+                    lit = prepareLitPoints(at, object, &*rays, options.normals, options.threads, observer);
                 lit_from = of;
             }
-            irradiance = computeIrradiance(lit, scene, object, &*rays, options, observer);
+            irradiance = settings.gl ? onGl().irradiance(at, lit_version, scene, object, *rays, options, observer)
+                                     : computeIrradiance(lit, scene, object, &*rays, options, observer);
         };
         refresh(Stage::irradiance, key, compute, settings.gl);
     }
@@ -232,9 +237,10 @@ struct Renderer::Impl {
             const RenderInput input{.scene = &scene,
                                     .object = &object,
                                     .rays = &*rays,
-                                    .points = &points(),
+                                    .points = wanted.per_pixel ? nullptr : &points(),
                                     .irradiance = &irradiance,
                                     .visible = &visible,
+                                    .view = &view,
                                     .model = &material.model,
                                     .evaluator = material.evaluator.get(),
                                     .medium = &material.medium,
@@ -256,8 +262,8 @@ struct Renderer::Impl {
         refreshObject();
         refreshMaterial();
         refreshPoints(observer);
-        refreshIrradiance(observer);
         refreshVisible(observer);
+        refreshIrradiance(observer);
         startExitance(observer);
         refreshBackground(observer);
         refreshCoat(observer);
@@ -316,9 +322,13 @@ struct Renderer::Impl {
     }
 
     void describe() {
-        report.points = points().positions.size();
+        const bool per_pixel = wanted().per_pixel;
+        report.points = per_pixel ? 0 : points().positions.size();
         report.receivers = visible.positions.size();
-        if (const std::string of = fmt::format("{} {}", runs(Stage::points), runs(Stage::object)); spacing_from != of) {
+        if (const std::string of = fmt::format("{} {}", runs(Stage::points), runs(Stage::object)); per_pixel) {
+            report.point_spacing_mm = 0;
+            spacing_from.clear();
+        } else if (spacing_from != of) {
             const double area = std::accumulate(points().areas.begin(), points().areas.end(), 0.0);
             report.point_spacing_mm = std::sqrt(area / static_cast<double>(report.points));
             spacing_from = of;
@@ -328,7 +338,7 @@ struct Renderer::Impl {
             report.notes.emplace_back("At every angle the model stands with its profile under a normal beam.");
         if (std::string twice = countedTwice(material.model); !twice.empty()) report.notes.push_back(std::move(twice));
         const Medium& medium = material.medium;
-        if (object.isMesh() && settings.points == 0)
+        if (object.isMesh() && settings.points == 0 && !per_pixel)
             if (const auto note = noteOfFewPoints(area_mm2, medium)) report.notes.push_back(*note);
         for (int c = 0; c < medium.channels; ++c) {
             if (!medium.scatters(c))

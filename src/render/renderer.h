@@ -39,7 +39,7 @@ struct RenderSettings {
 };
 
 /// In the order in which they run.
-enum class Stage { object, rays, material, points, irradiance, visible, exitance, background, coat, shade };
+enum class Stage { object, rays, material, points, visible, irradiance, exitance, background, coat, shade };
 inline constexpr std::size_t stage_count = 10;
 std::string_view stageName(Stage stage);
 

@@ -6,6 +6,7 @@
 #include "model/sum_model.h"
 #include "render/brute_force.h"
 #include "render/hierarchical.h"
+#include "render/separable.h"
 
 namespace searchlight {
 
@@ -16,6 +17,11 @@ Param normalBeamOption() {
             .type = ParamType::toggle,
             .value = false,
             .doc = "a model that reads directions is taken for its profile under a normal beam: radial, and fast"};
+}
+
+std::vector<Param> with(std::vector<Param> options, Param last) {
+    options.push_back(std::move(last));
+    return options;
 }
 
 }  // namespace
@@ -38,6 +44,12 @@ std::span<const TechniqueEntry> techniques() {
          .options = {normalBeamOption()},
          .directional = true,
          .make = makeBruteForce},
+        {.id = "separable",
+         .summary = "a separable kernel blurs the light of the picture's pixels, as games do",
+         .options = with(separableOptions(), normalBeamOption()),
+         .per_pixel = true,
+         .gl = true,
+         .make = makeSeparable},
     };
     return entries;
 }

@@ -29,9 +29,10 @@ struct RenderInput {
     const Scene* scene = nullptr;
     const Object* object = nullptr;
     const RayScene* rays = nullptr;           ///< of object->mesh
-    const PointCloud* points = nullptr;       ///< of irradiance
-    const Irradiance* irradiance = nullptr;   ///< at those points
+    const PointCloud* points = nullptr;       ///< of irradiance; null where the technique is per_pixel
+    const Irradiance* irradiance = nullptr;   ///< at those points, or at the samples of visible
     const VisibleSurface* visible = nullptr;  ///< receivers
+    const View* view = nullptr;               ///< what they were seen with
     const Model* model = nullptr;
     Evaluator* evaluator = nullptr;  ///< set to the medium
     const Medium* medium = nullptr;
@@ -79,6 +80,7 @@ struct TechniqueEntry {
     std::string_view summary;
     std::vector<Param> options;
     bool directional = false;  ///< takes models that are not radial
+    bool per_pixel = false;    ///< reads the irradiance at what is seen: no points are made for it
     bool gl = false;           ///< has a version on OpenGL, which make() gives for a context; null makes the CPU's
     std::unique_ptr<Technique> (*make)(gl::Context* context);
 };

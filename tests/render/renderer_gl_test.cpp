@@ -144,12 +144,12 @@ TEST_F(RendererGl, RedoesOnlyWhatAChangeMakesStale) {
                 ran += std::string(stageName(static_cast<Stage>(i))) + " ";
         return ran;
     };
-    EXPECT_EQ(runsAfter([] {}), "object rays material points irradiance visible exitance background coat shade ");
+    EXPECT_EQ(runsAfter([] {}), "object rays material points visible irradiance exitance background coat shade ");
     EXPECT_EQ(runsAfter([] {}), "");
     EXPECT_EQ(runsAfter([&] { scene_.lights = {PointLight{}}; }), "irradiance exitance background shade ");
     EXPECT_EQ(runsAfter([&] { scene_.camera.azimuth_deg = 80; }), "visible exitance background shade ");
-    EXPECT_EQ(runsAfter([&] { gl = false; }), "irradiance visible exitance background shade ");
-    EXPECT_EQ(runsAfter([&] { gl = true; }), "irradiance visible exitance background shade ");
+    EXPECT_EQ(runsAfter([&] { gl = false; }), "visible irradiance exitance background shade ");
+    EXPECT_EQ(runsAfter([&] { gl = true; }), "visible irradiance exitance background shade ");
 }
 
 TEST_F(RendererGl, WhatStaysOnTheDeviceGivesThePictureOfAFreshStart) {

@@ -126,7 +126,7 @@ TEST_F(RendererTest, RedoesOnlyWhatAChangeMakesStale) {
                 ran += std::string(stageName(static_cast<Stage>(i))) + " ";
         return ran;
     };
-    EXPECT_EQ(runsAfter([] {}), "object rays material points irradiance visible exitance background coat shade ");
+    EXPECT_EQ(runsAfter([] {}), "object rays material points visible irradiance exitance background coat shade ");
     EXPECT_EQ(runsAfter([] {}), "");
     EXPECT_EQ(runsAfter([&] { scene.material.scale = 2; }), "material exitance shade ");
     EXPECT_EQ(runsAfter([&] { scene.model.id = "better_dipole"; }), "material exitance shade ");
@@ -138,7 +138,7 @@ TEST_F(RendererTest, RedoesOnlyWhatAChangeMakesStale) {
     EXPECT_EQ(runsAfter([&] { settings.points = 3000; }), "points irradiance exitance shade ");
     EXPECT_EQ(runsAfter([&] { scene.material.id = "whole_milk"; }), "material exitance shade ");  // of the same eta
     EXPECT_EQ(runsAfter([&] { scene.material.id = "marble"; }), "material irradiance exitance shade ");
-    EXPECT_EQ(runsAfter([&] { scene.scale = 21; }), "object rays points irradiance visible exitance background shade ");
+    EXPECT_EQ(runsAfter([&] { scene.scale = 21; }), "object rays points visible irradiance exitance background shade ");
 }
 
 TEST_F(RendererTest, WhatIsKeptGivesThePictureOfAFreshStart) {

@@ -1,0 +1,317 @@
+#include "render/screen/screen_filter.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "render/screen/filter_pass.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "render/screen/screen_filter.cpp"
+// As in half_space_walk.cpp.
+#define HWY_DISABLED_TARGETS HWY_SSSE3
+#define HWY_BROKEN_EMU128 0
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace searchlight {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Float = hn::CappedTag<float, 16>;
+using Int = hn::RebindToSigned<Float>;
+using FloatV = hn::Vec<Float>;
+using IntV = hn::Vec<Int>;
+
+struct Vectors {
+    FloatV x, y, z;
+};
+
+HWY_INLINE FloatV dotOf(const Vectors& a, const Vectors& b) {
+    return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
+}
+
+HWY_INLINE Vectors crossOf(const Vectors& a, const Vectors& b) {
+    return {hn::MulSub(a.y, b.z, hn::Mul(a.z, b.y)), hn::MulSub(a.z, b.x, hn::Mul(a.x, b.z)),
+            hn::MulSub(a.x, b.y, hn::Mul(a.y, b.x))};
+}
+
+HWY_INLINE Vectors loaded(const std::array<std::vector<float>, 3>& planes, std::size_t i) {
+    const Float d;
+    return {hn::LoadU(d, &planes[0][i]), hn::LoadU(d, &planes[1][i]), hn::LoadU(d, &planes[2][i])};
+}
+
+// The direction of the pass.
+HWY_INLINE Vectors axisOf(const FilterPass& pass, const Vectors& position, const Vectors& normal) {
+    const Float d;
+    const FloatV cosine = hn::Set(d, pass.line->cosine), sine = hn::Set(d, pass.line->sine);
+    if (pass.axes == FilterAxes::screen) return {cosine, sine, hn::Zero(d)};
+    // The plane of the picture's row meets the tangent plane in u: a pass along u stays in its row.
+    const FloatV row_y = hn::Neg(position.z), row_z = position.y;
+    Vectors u = {hn::MulSub(row_y, normal.z, hn::Mul(row_z, normal.y)), hn::Mul(row_z, normal.x),
+                 hn::Neg(hn::Mul(row_y, normal.x))};
+    const FloatV square = dotOf(u, u), limit = hn::Mul(hn::Set(d, FilterPass::edge_on), dotOf(position, position));
+    const auto edge_on = hn::Lt(square, limit);
+    const FloatV per_length = hn::Div(hn::Set(d, 1.0f), hn::Sqrt(hn::Max(square, limit)));
+    u = {hn::IfThenElse(edge_on, hn::Set(d, 1.0f), hn::Mul(per_length, u.x)),
+         hn::IfThenZeroElse(edge_on, hn::Mul(per_length, u.y)), hn::IfThenZeroElse(edge_on, hn::Mul(per_length, u.z))};
+    if (pass.line->sine == 0) return u;
+    const Vectors v = crossOf(u, normal);
+    return {hn::MulAdd(cosine, u.x, hn::Mul(sine, v.x)), hn::MulAdd(cosine, u.y, hn::Mul(sine, v.y)),
+            hn::MulAdd(cosine, u.z, hn::Mul(sine, v.z))};
+}
+
+// Of a tap at `offset` whose pixel shows a point at `height` over the plane of the pass.
+HWY_INLINE FloatV trustOf(const FilterPass& pass, FloatV offset, FloatV height) {
+    const Float d;
+    const FloatV one = hn::Set(d, 1.0f), per_reach = hn::Set(d, pass.per_reach);
+    if (pass.trust == FilterTrust::all) return one;
+    if (pass.trust == FilterTrust::depth) return hn::Max(hn::Zero(d), hn::NegMulAdd(hn::Abs(height), per_reach, one));
+    // The way that it is further, without cancellation; 1e-30: at offset and height 0.
+    const FloatV square = hn::Mul(height, height);
+    const FloatV far = hn::Add(hn::Sqrt(hn::MulAdd(offset, offset, square)), hn::Abs(offset));
+    const FloatV further = hn::Div(square, hn::Max(far, hn::Set(d, 1e-30f)));
+    // (1 + y / 4)^-4 stands for e^-y: the same slope, and as good as nothing where e^-y is.
+    const FloatV root = hn::Div(one, hn::MulAdd(further, hn::Mul(per_reach, hn::Set(d, 0.25f)), one));
+    const FloatV root2 = hn::Mul(root, root);
+    return hn::Mul(root2, root2);
+}
+
+// Samples [begin, end), whole vectors.
+void filterPart(const FilterPass& pass, std::size_t begin, std::size_t end) {
+    const Float d;
+    const Int di;
+    const ScreenSamples& samples = *pass.samples;
+    const FloatV zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+    // Grid coordinates of the middle of the picture; pixel (0, 0) has its centre at (1, 1) of the grid.
+    const FloatV middle_x = hn::Set(d, 0.5f * static_cast<float>(samples.width) + 0.5f);
+    const FloatV middle_y = hn::Set(d, 0.5f * static_cast<float>(samples.height) + 0.5f);
+    const FloatV last_x = hn::Set(d, static_cast<float>(samples.width) + 0.5f);
+    const FloatV last_y = hn::Set(d, static_cast<float>(samples.height) + 0.5f);
+    const FloatV focal = hn::Set(d, samples.focal), per_focal = hn::Set(d, 1 / samples.focal);
+    const FloatV fallback = hn::Set(d, pass.fallback);
+    const IntV stride = hn::Set(di, samples.stride());
+    const float *const red = pass.grid[0], *const green = pass.grid[1], *const blue = pass.grid[2];
+    const float* const depths = samples.depth.data();
+
+    for (std::size_t i = begin; i < end; i += hn::Lanes(d)) {
+        const Vectors position = loaded(samples.position, i);
+        const Vectors normal = pass.axes == FilterAxes::screen ? Vectors{zero, zero, one} : loaded(samples.normal, i);
+        const Vectors axis = axisOf(pass, position, normal);
+        const FloatV plane = dotOf(normal, position);
+        const FloatV width = pass.strength.empty() ? hn::Set(d, pass.width)
+                                                   : hn::Mul(hn::Set(d, pass.width), hn::LoadU(d, &pass.strength[i]));
+        const FloatV nearest = hn::Mul(hn::Set(d, FilterPass::nearest), position.z);
+        // The cell that the sample lies in.
+        const FloatV per_depth = hn::Div(focal, position.z);
+        const auto cellOf = [&](FloatV from, FloatV middle_of, FloatV last) HWY_ATTR {
+            const FloatV at = hn::Floor(hn::Add(hn::MulAdd(per_depth, from, middle_of), hn::Set(d, 0.5f)));
+            return hn::Min(hn::Max(zero, at), last);
+        };
+        const FloatV column = cellOf(position.x, middle_x, hn::Floor(last_x));
+        const FloatV row = cellOf(position.y, middle_y, hn::Floor(last_y));
+        // What taps bring, and what is left to the middle.
+        FloatV r = zero, g = zero, b = zero;
+        const Rgbf middle = pass.line->middle;
+        FloatV rest_r = hn::Set(d, middle.r), rest_g = hn::Set(d, middle.g), rest_b = hn::Set(d, middle.b);
+        for (const FilterTap& tap : pass.line->taps) {
+            const FloatV offset = hn::Mul(width, hn::Set(d, tap.offset));
+            const FloatV per_z = hn::Div(focal, hn::Max(nearest, hn::MulAdd(offset, axis.z, position.z)));
+            const auto place = [&](FloatV along, FloatV from, FloatV middle_of, FloatV last) HWY_ATTR {
+                return hn::Min(hn::Max(zero, hn::MulAdd(per_z, hn::MulAdd(offset, along, from), middle_of)), last);
+            };
+            FloatV sum_r = zero, sum_g = zero, sum_b = zero, sum = zero;
+            const auto texel = [&](FloatV grid_x, FloatV grid_y, FloatV share) HWY_ATTR {
+                const IntV at = hn::Add(hn::Mul(hn::ConvertTo(di, grid_y), stride), hn::ConvertTo(di, grid_x));
+                const FloatV z = hn::GatherIndex(d, depths, at);
+                FloatV weight = share;
+                if (pass.trust != FilterTrust::all) {
+                    const FloatV over_z = hn::Mul(z, per_focal);
+                    const Vectors seen = {hn::Mul(over_z, hn::Sub(grid_x, middle_x)),
+                                          hn::Mul(over_z, hn::Sub(grid_y, middle_y)), z};
+                    weight = hn::Mul(share, trustOf(pass, offset, hn::Sub(dotOf(normal, seen), plane)));
+                }
+                weight = hn::IfThenElseZero(hn::Gt(z, zero), weight);
+                sum_r = hn::MulAdd(weight, hn::GatherIndex(d, red, at), sum_r);
+                sum_g = hn::MulAdd(weight, hn::GatherIndex(d, green, at), sum_g);
+                sum_b = hn::MulAdd(weight, hn::GatherIndex(d, blue, at), sum_b);
+                sum = hn::Add(sum, weight);
+            };
+            if (pass.course == FilterLine::Course::row) {
+                const FloatV x = place(axis.x, position.x, middle_x, last_x);
+                const FloatV left = hn::Floor(x), fx = hn::Sub(x, left);
+                texel(left, row, hn::Sub(one, fx));
+                texel(hn::Add(left, one), row, fx);
+            } else if (pass.course == FilterLine::Course::column) {
+                const FloatV y = place(axis.y, position.y, middle_y, last_y);
+                const FloatV top = hn::Floor(y), fy = hn::Sub(y, top);
+                texel(column, top, hn::Sub(one, fy));
+                texel(column, hn::Add(top, one), fy);
+            } else {
+                const FloatV x = place(axis.x, position.x, middle_x, last_x);
+                const FloatV y = place(axis.y, position.y, middle_y, last_y);
+                const FloatV left = hn::Floor(x), fx = hn::Sub(x, left), right = hn::Add(left, one);
+                const FloatV top = hn::Floor(y), fy = hn::Sub(y, top), bottom = hn::Add(top, one);
+                texel(left, top, hn::Mul(hn::Sub(one, fx), hn::Sub(one, fy)));
+                texel(right, top, hn::Mul(fx, hn::Sub(one, fy)));
+                texel(left, bottom, hn::Mul(hn::Sub(one, fx), fy));
+                texel(right, bottom, hn::Mul(fx, fy));
+            }
+            const FloatV missing = hn::Mul(fallback, hn::Sub(one, sum));
+            const auto add = [&](float weight, FloatV from, FloatV& to, FloatV& rest) HWY_ATTR {
+                to = hn::MulAdd(hn::Set(d, weight), from, to);
+                rest = hn::MulAdd(hn::Set(d, weight), missing, rest);
+            };
+            add(tap.weight.r, sum_r, r, rest_r);
+            add(tap.weight.g, sum_g, g, rest_g);
+            add(tap.weight.b, sum_b, b, rest_b);
+        }
+        const auto put = [&](std::size_t c, FloatV sum, FloatV rest) HWY_ATTR {
+            hn::StoreU(hn::MulAdd(rest, hn::LoadU(d, pass.light[c] + i), sum), d, pass.result[c] + i);
+        };
+        put(0, r, rest_r);
+        put(1, g, rest_g);
+        put(2, b, rest_b);
+    }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace searchlight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace searchlight {
+
+HWY_EXPORT(filterPart);
+
+namespace {
+
+using Planes = std::array<std::vector<float>, 3>;
+
+constexpr std::size_t grain = 4096;
+static_assert(grain % ScreenSamples::lanes == 0);
+
+std::array<const float*, 3> read(const Planes& planes) {
+    return {planes[0].data(), planes[1].data(), planes[2].data()};
+}
+std::array<float*, 3> written(Planes& planes) { return {planes[0].data(), planes[1].data(), planes[2].data()}; }
+
+float channelOf(const Rgbf& value, std::size_t c) { return c == 0 ? value.r : c == 1 ? value.g : value.b; }
+
+}  // namespace
+
+FilterLine::Course FilterLine::course(FilterAxes axes) const {
+    if (sine == 0) return Course::row;
+    // Across a row the tangent plane seldom runs along a column.
+    return axes == FilterAxes::screen && cosine == 0 ? Course::column : Course::any;
+}
+
+std::vector<FilterTerm> filterTerms(const Taps& taps) {
+    std::vector<FilterTerm> terms;
+    for (const TapTerm& from : taps.terms) {
+        FilterLine line;
+        for (std::size_t i = 0; i < from.offsets_mm.size(); ++i)
+            if (from.offsets_mm[i] == 0)
+                line.middle = toFloat(from.weight(i));
+            else
+                line.taps.push_back({static_cast<float>(from.offsets_mm[i]), toFloat(from.weight(i))});
+        FilterTerm term{{line, line}, toFloat(from.scale)};
+        const double angle = from.angle_deg * (std::numbers::pi / 180);
+        term.lines[0].cosine = term.lines[1].sine = static_cast<float>(std::cos(angle));
+        term.lines[0].sine = static_cast<float>(std::sin(angle));
+        term.lines[1].cosine = -term.lines[0].sine;
+        terms.push_back(std::move(term));
+    }
+    return terms;
+}
+
+double meanOffset(const Taps& taps) {
+    if (taps.terms.empty()) return 0;
+    const TapTerm& term = taps.terms.front();
+    double sum = 0, mass = 0;
+    for (std::size_t i = 0; i < term.offsets_mm.size(); ++i)
+        for (int c = 0; c < Rgb::channels; ++c) {
+            const double weight = std::abs(term.weight(i)[c]);
+            sum += weight * std::abs(term.offsets_mm[i]);
+            mass += weight;
+        }
+    return mass > 0 ? sum / mass : 0;
+}
+
+float perReach(const Taps& taps, const FilterOptions& options) {
+    const double reach = options.reach * meanOffset(taps) * options.width;
+    return reach > 0 ? static_cast<float>(1 / reach) : 0.0f;
+}
+
+std::vector<Rgbf> filterScreen(const ScreenSamples& samples, std::span<const Rgbf> light, const Taps& taps,
+                               const FilterOptions& options) {
+    assert(light.size() == samples.count && (options.strength.empty() || options.strength.size() == samples.count));
+    const std::size_t padded = samples.padded(), parts = (padded + grain - 1) / grain;
+    std::vector<Rgbf> result(samples.count);
+    if (samples.count == 0) return result;
+    std::vector<float> strength(options.strength.begin(), options.strength.end());
+    if (!strength.empty()) strength.resize(padded, 1.0f);
+
+    Planes given, between, filtered, grid, grid_between;
+    for (Planes* planes : {&given, &between, &filtered})
+        for (std::vector<float>& plane : *planes) plane.resize(padded);
+    for (Planes* planes : {&grid, &grid_between})
+        for (std::vector<float>& plane : *planes) plane.resize(samples.cells());
+    const auto forParts = [&](const auto& body) {
+        parallelFor(parts, options.threads, [&](std::size_t part) {
+            if (options.observer && options.observer->cancelled()) throw interruptedError();
+            body(part * grain, std::min(padded, (part + 1) * grain));
+        });
+    };
+    const auto intoGrid = [&](const Planes& from, Planes& to, std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            if (samples.cell[i] != ScreenSamples::nothing)
+                for (std::size_t c = 0; c < 3; ++c) to[c][samples.cell[i]] = from[c][i];
+    };
+    forParts([&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < std::min(end, samples.count); ++i)
+            for (std::size_t c = 0; c < 3; ++c) given[c][i] = channelOf(light[i], c);
+        intoGrid(given, grid, begin, end);
+    });
+    for (const FilterTerm& term : filterTerms(taps)) {
+        const auto pass = [&](std::size_t line, const Planes& from_grid, const Planes& from, Planes& to) {
+            const FilterLine& along = term.lines[line];
+            return FilterPass{.samples = &samples,
+                              .line = &along,
+                              .course = along.course(options.axes),
+                              .axes = options.axes,
+                              .trust = options.trust,
+                              .width = static_cast<float>(options.width),
+                              .per_reach = perReach(taps, options),
+                              .fallback = static_cast<float>(options.fallback),
+                              .strength = strength,
+                              .grid = read(from_grid),
+                              .light = read(from),
+                              .result = written(to)};
+        };
+        const FilterPass first = pass(0, grid, given, between), second = pass(1, grid_between, between, filtered);
+        forParts([&](std::size_t begin, std::size_t end) {
+            HWY_DYNAMIC_DISPATCH(filterPart)(first, begin, end);
+            intoGrid(between, grid_between, begin, end);
+        });
+        forParts([&](std::size_t begin, std::size_t end) {
+            HWY_DYNAMIC_DISPATCH(filterPart)(second, begin, end);
+            for (std::size_t i = begin; i < std::min(end, samples.count); ++i) {
+                result[i].r += term.scale.r * filtered[0][i];
+                result[i].g += term.scale.g * filtered[1][i];
+                result[i].b += term.scale.b * filtered[2][i];
+            }
+        });
+    }
+    return result;
+}
+
+}  // namespace searchlight
+#endif

@@ -1,0 +1,197 @@
+#include "render/separable.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <optional>
+#include <utility>
+
+#include "base/error.h"
+#include "gl/context.h"
+#include "kernel/ground_truth.h"
+#include "kernel/preintegrated.h"
+#include "kernel/taps.h"
+#include "render/screen/back_light.h"
+#include "render/screen/screen_filter.h"
+#include "render/screen/screen_filter_gl.h"
+#include "render/screen/strength_map.h"
+
+namespace searchlight {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double milliseconds(Clock::time_point since) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - since).count();
+}
+
+// Choices of an option, by their words.
+template <class Value, std::size_t size>
+using Words = std::array<std::pair<std::string_view, Value>, size>;
+
+constexpr Words<FilterAxes, 2> axes_words{{{"surface", FilterAxes::surface}, {"screen", FilterAxes::screen}}};
+constexpr Words<FilterTrust, 3> trust_words{
+    {{"distance", FilterTrust::distance}, {"depth", FilterTrust::depth}, {"all", FilterTrust::all}}};
+constexpr Words<Thickness, 4> thickness_words{{{"nearest", Thickness::nearest},
+                                               {"material", Thickness::material},
+                                               {"outermost", Thickness::outermost},
+                                               {"none", Thickness::nothing}}};
+
+template <class Value, std::size_t size>
+std::vector<std::string> wordsOf(const Words<Value, size>& words) {
+    std::vector<std::string> list;
+    for (const auto& [word, value] : words) list.emplace_back(word);
+    return list;
+}
+
+template <class Value, std::size_t size>
+Value chosen(const Words<Value, size>& words, const ParamValues& options, std::string_view name) {
+    const auto& given = std::get<std::string>(options.find(name)->second);
+    return std::ranges::find(words, given, &std::pair<std::string_view, Value>::first)->second;
+}
+
+double number(const ParamValues& options, std::string_view name) {
+    return std::get<double>(options.find(name)->second);
+}
+
+// What is asked for again is kept.
+class Separable final : public Technique {
+public:
+    explicit Separable(gl::Context* context) : context_(context) {
+        if (context) device_.emplace(*context);
+    }
+
+    void start(const RenderInput& input, const ParamValues& options, Observer& observer) override {
+        const auto begin = Clock::now();
+        const RenderInput::Versions& now = input.versions;
+        const bool view = !samples_ || now.view != seen_.view;
+        const bool light = view || now.light != seen_.light;
+        const bool material = !taps_ || now.material != seen_.material;
+        const auto changed = [&](std::string_view name) {
+            const auto before = options_.find(name);
+            return before == options_.end() || before->second != options.find(name)->second;
+        };
+        if (view) {
+            samples_ = screenSamples(*input.view, *input.visible, input.threads);
+            if (device_) device_->setSamples(*samples_);
+        }
+        if (material || changed("kernel") || changed("taps")) makeKernel(*input.profile, options);
+        const double samples_ms = milliseconds(begin);
+
+        const auto back_begin = Clock::now();
+        if (light || material || changed("thickness"))
+            back_ = backLight(*input.visible, *input.scene, *input.object, *input.rays, *input.profile,
+                              {.thickness = chosen(thickness_words, options, "thickness"),
+                               .eta = input.medium->eta,
+                               .threads = input.threads},
+                              observer);
+        if (view || changed("strength")) {
+            const auto& path = std::get<std::string>(options.find("strength")->second);
+            strength_.clear();
+            if (path != "none") strength_ = strengthAt(path, *input.visible, *input.object, *input.rays, input.threads);
+        }
+        stage_ms_ = {{"samples", samples_ms}, {"back_light", milliseconds(back_begin)}};
+        seen_ = now;
+        options_ = options;
+        light_.resize(samples_->count);
+        for (std::size_t i = 0; i < light_.size(); ++i) light_[i] = input.irradiance->transmitted[i];
+        filter_ = {.axes = chosen(axes_words, options, "axes"),
+                   .trust = chosen(trust_words, options, "trust"),
+                   .width = number(options, "kernel_width"),
+                   .reach = number(options, "reach"),
+                   .fallback = number(options, "fallback"),
+                   .strength = strength_,
+                   .threads = input.threads};
+    }
+
+    bool step(Observer& observer) override {
+        const auto begin = Clock::now();
+        filter_.observer = &observer;
+        // Light that shines through is blurred as well: the filter's factor is taken out of it.
+        std::vector<Rgbf> light = light_;
+        const Rgb per_total = {total_.r > 0 ? 1 / total_.r : 0, total_.g > 0 ? 1 / total_.g : 0,
+                               total_.b > 0 ? 1 / total_.b : 0};
+        for (std::size_t i = 0; i < light.size(); ++i)
+            light[i] = toFloat(toDouble(light[i]) + per_total * toDouble(back_[i]));
+        exitance_ = device_ ? device_->filter(light, *taps_, filter_) : filterScreen(*samples_, light, *taps_, filter_);
+        const Rgbf total = toFloat(total_);
+        for (Rgbf& m : exitance_) m = {total.r * m.r, total.g * m.g, total.b * m.b};
+        stage_ms_["filter"] = milliseconds(begin);
+        return true;
+    }
+
+    std::span<const Rgbf> exitance() const override { return exitance_; }
+
+    TechniqueReport report() const override {
+        std::uint64_t pairs = 0;
+        for (const TapTerm& term : taps_->terms) pairs += 2 * term.offsets_mm.size() * samples_->count;
+        return {.stage_ms = stage_ms_,
+                .interactions = pairs,
+                .approximates =
+                    "light is moved within the picture alone, by a separable kernel in the tangent plane; "
+                    "what entered out of sight counts along the lines to the lights",
+                .device = context_ ? "gl " + context_->info().renderer : "cpu"};
+    }
+
+private:
+    void makeKernel(const Profile& profile, const ParamValues& options) {
+        const GroundTruth truth(profile);
+        const SeparableKernel kernel = preintegrated(truth);
+        const int count = static_cast<int>(number(options, "taps")) | 1;
+        taps_ = sampleTaps(kernel, quadraticOffsets(count, tapExtent(kernel)));
+        total_ = truth.total();
+    }
+
+    gl::Context* context_;
+    std::optional<ScreenFilterGl> device_;  // where the passes run, if not on the CPU
+    std::optional<ScreenSamples> samples_;
+    std::optional<Taps> taps_;
+    Rgb total_;
+    std::vector<Rgbf> back_, light_, exitance_;
+    std::vector<float> strength_;
+    RenderInput::Versions seen_;
+    ParamValues options_;
+    FilterOptions filter_;
+    std::map<std::string, double> stage_ms_;
+};
+
+}  // namespace
+
+std::vector<Param> separableOptions() {
+    const auto choice = [](std::string name, std::vector<std::string> words, std::string doc) {
+        Param param{.name = std::move(name), .type = ParamType::choice, .choices = std::move(words)};
+        param.value = param.choices.front();
+        param.doc = std::move(doc);
+        return param;
+    };
+    return {
+        choice("kernel", {"preintegrated"}, "the separable kernel that stands for R_d"),
+        {.name = "taps",
+         .type = ParamType::integer,
+         .min = 3,
+         .max = 501,
+         .value = 17.0,
+         .doc = "samples of the kernel per pass, an odd number"},
+        choice("axes", wordsOf(axes_words), "along what the filter steps: the tangent plane, or the picture"),
+        choice("trust", wordsOf(trust_words),
+               "what makes a pixel that lies off the kernel's plane count less: its distance or its depth"),
+        {.name = "reach", .min = 0.01, .max = 1000, .value = 1.0, .doc = "of that, in mean offsets of the kernel"},
+        {.name = "fallback",
+         .min = 0,
+         .max = 1,
+         .value = 1.0,
+         .doc = "of the middle's light, what stands for a place that is not seen or not trusted"},
+        {.name = "kernel_width", .min = 0, .max = 100, .value = 1.0, .doc = "times the width of the kernel"},
+        {.name = "strength",
+         .type = ParamType::text,
+         .value = std::string("none"),
+         .doc = "a picture over the texture coordinates: times the width, place by place; or none"},
+        choice("thickness", wordsOf(thickness_words),
+               "how far it is to where light came in that shines through: to the nearest way out, or to the surface "
+               "that the light sees, without the gaps or with them")};
+}
+
+std::unique_ptr<Technique> makeSeparable(gl::Context* context) { return std::make_unique<Separable>(context); }
+
+}  // namespace searchlight
