@@ -57,7 +57,7 @@ public:
     /// The colour of a series, as figures on paper have it (draw/drawing.h), lightened where the theme is dark.
     QColor seriesColor(int index) const;
 
-signals:
+Q_SIGNALS:
     void changed();
 
 private:
