@@ -10,7 +10,10 @@ using nlohmann::json;
 
 std::string listText(const json& list) {
     std::string text;
-    for (const json& value : list) text += (text.empty() ? "" : ",") + value.dump();
+    for (const json& value : list) {
+        if (!text.empty()) text += ',';
+        text += value.dump();
+    }
     return text;
 }
 
