@@ -276,9 +276,11 @@ JobResult pictureOf(const Job& job, Engine& engine, KeptRenderer& kept, Observer
 
     JobResult result;
     result.json = document.dump(1);
-    result.text = fmt::format("{} in {}, {}, {}x{}\n{} points {:.3g} mm apart, {} receivers", job.scene.object,
-                              subject.name, job.scene.model.id, settings.width, settings.height, report.points,
-                              report.point_spacing_mm, report.receivers);
+    result.text = fmt::format("{} in {}, {}, {}x{}\n", job.scene.object, subject.name, job.scene.model.id,
+                              settings.width, settings.height);
+    if (report.points > 0)
+        result.text += fmt::format("{} points {:.3g} mm apart, ", report.points, report.point_spacing_mm);
+    result.text += fmt::format("{} receivers", report.receivers);
     if (report.technique.error_bound > 0)
         result.text += fmt::format(", error at most {:.2g} %", 100 * report.technique.error_bound);
     result.text += "\n";

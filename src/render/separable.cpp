@@ -1,5 +1,8 @@
 #include "render/separable.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -8,9 +11,9 @@
 
 #include "base/error.h"
 #include "gl/context.h"
+#include "kernel/cells.h"
 #include "kernel/ground_truth.h"
-#include "kernel/preintegrated.h"
-#include "kernel/taps.h"
+#include "kernel/methods.h"
 #include "render/screen/back_light.h"
 #include "render/screen/screen_filter.h"
 #include "render/screen/screen_filter_gl.h"
@@ -55,6 +58,15 @@ double number(const ParamValues& options, std::string_view name) {
     return std::get<double>(options.find(name)->second);
 }
 
+constexpr std::string_view methods_of_rank[] = {"svd", "gaussians", "optimised"};
+constexpr std::string_view kernel_options[] = {"kernel", "rank", "taps", "placed", "k"};
+
+std::vector<std::string> methodNames() {
+    std::vector<std::string> names;
+    for (const Method& method : methods()) names.emplace_back(method.name);
+    return names;
+}
+
 // What is asked for again is kept.
 class Separable final : public Technique {
 public:
@@ -76,7 +88,7 @@ public:
             samples_ = screenSamples(*input.view, *input.visible, input.threads);
             if (device_) device_->setSamples(*samples_);
         }
-        if (material || changed("kernel") || changed("taps")) makeKernel(*input.profile, options);
+        if (material || std::ranges::any_of(kernel_options, changed)) makeTaps(*input.profile, options);
         const double samples_ms = milliseconds(begin);
 
         const auto back_begin = Clock::now();
@@ -114,7 +126,10 @@ public:
                                total_.b > 0 ? 1 / total_.b : 0};
         for (std::size_t i = 0; i < light.size(); ++i)
             light[i] = toFloat(toDouble(light[i]) + per_total * toDouble(back_[i]));
-        exitance_ = device_ ? device_->filter(light, *taps_, filter_) : filterScreen(*samples_, light, *taps_, filter_);
+        if (device_)
+            exitance_ = device_->filter(light, *taps_, filter_);
+        else
+            lanes_.filter(*samples_, light, *taps_, filter_, exitance_);
         const Rgbf total = toFloat(total_);
         for (Rgbf& m : exitance_) m = {total.r * m.r, total.g * m.g, total.b * m.b};
         stage_ms_["filter"] = milliseconds(begin);
@@ -135,16 +150,23 @@ public:
     }
 
 private:
-    void makeKernel(const Profile& profile, const ParamValues& options) {
+    void makeTaps(const Profile& profile, const ParamValues& options) {
         const GroundTruth truth(profile);
-        const SeparableKernel kernel = preintegrated(truth);
-        const int count = static_cast<int>(number(options, "taps")) | 1;
-        taps_ = sampleTaps(kernel, quadraticOffsets(count, tapExtent(kernel)));
+        MethodOptions wanted{.method = std::get<std::string>(options.find("kernel")->second),
+                             .taps = static_cast<int>(number(options, "taps")),
+                             .placed = std::get<bool>(options.find("placed")->second)};
+        wanted.rank = wanted.count = static_cast<int>(number(options, "rank"));
+        wanted.guided.k = number(options, "k");
+        if (wanted.rank > 1 && std::ranges::find(methods_of_rank, wanted.method) == std::end(methods_of_rank))
+            throw usageError(fmt::format("{} makes kernels of rank 1", wanted.method),
+                             fmt::format("--rank is for --kernel {}", fmt::join(methods_of_rank, ", ")));
+        taps_ = makeKernel(truth, cellKernel(truth, gridOf(truth)), wanted).taps;
         total_ = truth.total();
     }
 
     gl::Context* context_;
     std::optional<ScreenFilterGl> device_;  // where the passes run, if not on the CPU
+    ScreenFilter lanes_;
     std::optional<ScreenSamples> samples_;
     std::optional<Taps> taps_;
     Rgb total_;
@@ -166,21 +188,36 @@ std::vector<Param> separableOptions() {
         return param;
     };
     return {
-        choice("kernel", {"preintegrated"}, "the separable kernel that stands for R_d"),
+        choice("kernel", methodNames(), "the separable kernel that stands for R_d"),
+        {.name = "rank",
+         .type = ParamType::integer,
+         .min = 1,
+         .max = 12,
+         .value = 1.0,
+         .doc = "terms of the kernel, two passes each: of svd, gaussians and optimised"},
         {.name = "taps",
          .type = ParamType::integer,
          .min = 3,
-         .max = 501,
+         .max = 101,
          .value = 17.0,
          .doc = "samples of the kernel per pass, an odd number"},
+        {.name = "placed",
+         .type = ParamType::toggle,
+         .value = false,
+         .doc = "samples stand where they serve best, instead of quadratically"},
+        {.name = "k",
+         .min = 0,
+         .max = 4,
+         .value = 1.0,
+         .doc = "of guided kernels: 0 favours the middle, 2 the far field"},
         choice("axes", wordsOf(axes_words), "along what the filter steps: the tangent plane, or the picture"),
         choice("trust", wordsOf(trust_words),
                "what makes a pixel that lies off the kernel's plane count less: its distance or its depth"),
-        {.name = "reach", .min = 0.01, .max = 1000, .value = 1.0, .doc = "of that, in mean offsets of the kernel"},
+        {.name = "reach", .min = 0.01, .max = 1000, .value = 6.0, .doc = "of that, in mean offsets of the kernel"},
         {.name = "fallback",
          .min = 0,
          .max = 1,
-         .value = 1.0,
+         .value = 0.9,
          .doc = "of the middle's light, what stands for a place that is not seen or not trusted"},
         {.name = "kernel_width", .min = 0, .max = 100, .value = 1.0, .doc = "times the width of the kernel"},
         {.name = "strength",

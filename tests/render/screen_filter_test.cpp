@@ -209,7 +209,8 @@ TEST(ScreenFilter, SamplesThatShareAPixelKeepTheirOwnSurface) {
     insert(visible.geometric_normals, visible.geometric_normals[at]);
     visible.coverage[at] = 0.75f;
     const ScreenSamples samples = screenSamples(plane.view, visible, 1);
-    EXPECT_EQ(samples.cell[at + 1], ScreenSamples::nothing);
+    EXPECT_EQ(samples.standing, samples.count - 1);
+    EXPECT_EQ(samples.source.back(), at + 1);
     std::vector<Rgbf> light(samples.count, Rgbf{1, 1, 1});
     light[at + 1] = {5, 5, 5};
     const auto found = filterScreen(samples, light, gaussianTaps(1), {});

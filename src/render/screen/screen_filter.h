@@ -1,6 +1,7 @@
 // A separable kernel over the visible surface: what the filter of a picture does with the light at its pixels.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -22,9 +23,11 @@ enum class FilterAxes : std::uint8_t {
 /// What is made of a tap whose pixel shows something else than the plane on which the tap lies, by its height h over
 /// that plane (the one through the sample that faces the camera, or the tangent plane).
 enum class FilterTrust : std::uint8_t {
-    all,       ///< taken as it is
-    depth,     ///< replaced by the middle in proportion to h, as a whole from `reach` on [Freude2014, Eq. 4.12]
-    distance,  ///< replaced by the middle as the kernel falls over the way that it is further: (o^2 + h^2)^1/2 - o
+    all,    ///< taken as it is
+    depth,  ///< replaced by the middle in proportion to h, as a whole from `reach` on [Freude2014, Eq. 4.12]
+    /// Replaced by the middle as an exponential falls over the way that it is further than the plane: about
+    /// (o^2 + h^2)^1/2 - o at offset o.
+    distance,
 };
 
 struct FilterOptions {
@@ -44,10 +47,26 @@ struct FilterOptions {
 /// measured. 0 for a kernel that moves nothing.
 double meanOffset(const Taps& taps);
 
-/// `light` (per sample, any unit) filtered by every term of `taps` in two passes each and added up: per sample the sum
-/// over the taps of weight times the light at the pixel that the tap falls on, bilinear. Samples of a pixel that others
-/// stand for read the same grid and themselves in the middle. What is not trusted, not seen or outside the picture is
-/// the middle's light: with a fallback of 1 even light stays as it is. The result does not depend on `threads`.
+/// Filters pictures, one at a time, and keeps its memory from one to the next.
+class ScreenFilter {
+public:
+    using Planes = std::array<std::vector<float>, 3>;
+
+    /// `light` (per sample of the VisibleSurface, any unit) filtered by every term of `taps` in two passes each and
+    /// added up: the sum over the taps of weight times the light at the pixel that the tap falls on, bilinear. Samples
+    /// of a pixel that others stand for read the same grid and themselves in the middle. What is not trusted, not seen
+    /// or outside the picture is the middle's light: with a fallback of 1 even light stays as it is. The result does
+    /// not depend on `threads`.
+    void filter(const ScreenSamples& samples, std::span<const Rgbf> light, const Taps& taps,
+                const FilterOptions& options, std::vector<Rgbf>& result);
+
+private:
+    Planes given_, between_, filtered_;  // per sample
+    Planes grid_, grid_between_;
+    std::vector<float> strength_;
+};
+
+/// The same once.
 std::vector<Rgbf> filterScreen(const ScreenSamples& samples, std::span<const Rgbf> light, const Taps& taps,
                                const FilterOptions& options);
 

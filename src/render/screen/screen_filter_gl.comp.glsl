@@ -3,15 +3,15 @@
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Positions { vec4 positions[]; };  // mm, in camera coordinates; strength
 layout(std430, binding = 1) readonly buffer Normals { vec4 normals[]; };
-layout(std430, binding = 2) readonly buffer Cells { int cells[]; };  // of the grid, or -1
+layout(std430, binding = 2) readonly buffer Cells { int cells[]; };  // of the first `standing` samples
 layout(std430, binding = 3) readonly buffer Grid { vec4 grid[]; };   // light of who stands for the pixel, and its depth
 layout(std430, binding = 4) readonly buffer Light { vec4 light[]; };
 layout(std430, binding = 5) readonly buffer Taps { vec4 taps[]; };  // weight, offset in mm
 layout(std430, binding = 6) buffer Result { vec4 result[]; };
 layout(std430, binding = 7) buffer GridOut { vec4 grid_out[]; };
 
-uniform int first_sample, end_sample, first_tap, end_tap;
-uniform int width, height;
+uniform int first_sample, end_sample, standing, first_tap, end_tap;
+uniform int width, height, margin;
 uniform float focal;
 uniform bool surface_axes;
 uniform int trust;   // FilterTrust
@@ -33,14 +33,13 @@ vec3 axisOf(vec3 position, vec3 normal) {
 float trustOf(float offset, float height_over) {
     if (trust == 0) return 1.0;
     if (trust == 1) return max(0.0, 1.0 - abs(height_over) * per_reach);
-    float square = height_over * height_over;
-    float further = square / max(sqrt(offset * offset + square) + abs(offset), 1e-30);
-    float root = 1.0 / (1.0 + 0.25 * per_reach * further);
+    float far = abs(height_over) + 2.0 * abs(offset) + 1e-30;
+    float root = far / (far + 0.25 * per_reach * height_over * height_over);
     return root * root * root * root;
 }
 
 vec4 texel(vec2 at, float share, vec2 middle_of, vec3 normal, float plane, float offset) {
-    vec4 here = grid[int(at.y) * (width + 2) + int(at.x)];
+    vec4 here = grid[margin + int(at.y) * (width + 2) + int(at.x)];
     if (here.w <= 0.0) return vec4(0.0);
     vec3 seen = here.w * vec3((at - middle_of) / focal, 1.0);
     float weight = share * trustOf(offset, dot(normal, seen) - plane);
@@ -78,5 +77,5 @@ void main() {
         return;
     }
     result[i] = vec4(filtered, 0.0);
-    if (cells[i] >= 0) grid_out[cells[i]] = vec4(filtered, position.z);
+    if (i < standing) grid_out[cells[i]] = vec4(filtered, position.z);
 }

@@ -51,23 +51,24 @@ void ScreenFilterGl::setSamples(const ScreenSamples& samples) {
     if (count_ == 0) return;
     places_.resize(count_);
     std::vector<Texel> normals(count_);
-    std::vector<std::int32_t> cells(count_);
     for (std::size_t i = 0; i < count_; ++i) {
         places_[i] = {samples.position[0][i], samples.position[1][i], samples.position[2][i], 1};
         normals[i] = {samples.normal[0][i], samples.normal[1][i], samples.normal[2][i], 0};
-        cells[i] = samples.cell[i] == ScreenSamples::nothing ? -1 : static_cast<std::int32_t>(samples.cell[i]);
     }
-    cell_.assign(samples.cell.begin(), samples.cell.begin() + static_cast<std::ptrdiff_t>(count_));
+    source_ = samples.source;
+    cell_ = samples.cell;
     texels_.resize(samples.cells());
     for (std::size_t cell = 0; cell < texels_.size(); ++cell) texels_[cell] = {0, 0, 0, samples.depth[cell]};
     fill(normals_, normals);
-    cells_.reserve(cells.size() * sizeof(cells[0]));
-    cells_.upload<std::int32_t>(cells);
+    cells_.reserve(cell_.size() * sizeof(cell_[0]));
+    cells_.upload<std::uint32_t>(cell_);
     // Where nothing is seen it stays empty.
     fill(grid_between_, texels_);
     between_.reserve(count_ * sizeof(Texel));
     program_.set("width", samples.width);
     program_.set("height", samples.height);
+    program_.set("margin", ScreenSamples::margin);
+    program_.set("standing", static_cast<int>(samples.standing));
     program_.set("focal", samples.focal);
 }
 
@@ -77,9 +78,10 @@ std::vector<Rgbf> ScreenFilterGl::filter(std::span<const Rgbf> light, const Taps
     if (count_ == 0) return result;
     std::vector<Texel> given(count_);
     for (std::size_t i = 0; i < count_; ++i) {
-        given[i] = {light[i].r, light[i].g, light[i].b, 0};
-        places_[i][3] = options.strength.empty() ? 1 : options.strength[i];
-        if (cell_[i] != ScreenSamples::nothing) std::copy_n(given[i].begin(), 3, texels_[cell_[i]].begin());
+        const Rgbf& value = light[source_[i]];
+        given[i] = {value.r, value.g, value.b, 0};
+        places_[i][3] = options.strength.empty() ? 1 : options.strength[source_[i]];
+        if (i < cell_.size()) std::copy_n(given[i].begin(), 3, texels_[cell_[i]].begin());
     }
     fill(positions_, places_);
     fill(light_, given);
@@ -125,7 +127,7 @@ std::vector<Rgbf> ScreenFilterGl::filter(std::span<const Rgbf> light, const Taps
     }
     std::vector<Texel> sums(count_);
     sums_.download<Texel>(sums);
-    for (std::size_t i = 0; i < count_; ++i) result[i] = {sums[i][0], sums[i][1], sums[i][2]};
+    for (std::size_t i = 0; i < count_; ++i) result[source_[i]] = {sums[i][0], sums[i][1], sums[i][2]};
     return result;
 }
 

@@ -32,7 +32,7 @@ private:
     gl::Buffer positions_, normals_, cells_, taps_;
     gl::Buffer grid_, grid_between_, light_, between_, sums_;
     std::vector<std::array<float, 4>> places_, texels_;  // positions with strength; the grid without light
-    std::vector<std::uint32_t> cell_;
+    std::vector<std::uint32_t> source_, cell_;           // as in ScreenSamples
     std::size_t count_ = 0;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <limits>
 
 #include "base/parallel.h"
 
@@ -19,46 +20,53 @@ ScreenSamples screenSamples(const View& view, const VisibleSurface& visible, int
                           .height = view.height,
                           .focal = static_cast<float>(0.5 * view.height / view.tan_half),
                           .count = visible.positions.size()};
-    const std::size_t padded = samples.padded();
+    const std::size_t padded = samples.padded(), count = samples.count;
     for (auto* planes : {&samples.position, &samples.normal})
         for (std::vector<float>& plane : *planes) plane.resize(padded);
-    samples.cell.assign(padded, ScreenSamples::nothing);
     samples.depth.assign(samples.cells(), 0.0f);
-    if (samples.count == 0) return samples;
+    if (count == 0) return samples;
 
-    const auto inCamera = [&](Vec3 v) {
-        return std::array{static_cast<float>(dot(v, view.right)), static_cast<float>(-dot(v, view.up)),
-                          static_cast<float>(dot(v, view.forward))};
+    // Who stands for which pixel; the samples of a pixel follow each other in the list.
+    constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
+    const auto width = static_cast<std::size_t>(view.width), height = static_cast<std::size_t>(view.height);
+    std::vector<std::uint32_t> standing(width * height, nobody), others;
+    for (std::size_t i = 0; i < count;) {
+        const std::uint32_t pixel = visible.pixels[i];
+        std::size_t end = i + 1, widest = i;
+        for (; end < count && visible.pixels[end] == pixel; ++end)
+            if (visible.coverage[end] > visible.coverage[widest]) widest = end;
+        standing[pixel] = static_cast<std::uint32_t>(widest);
+        for (; i < end; ++i)
+            if (i != widest) others.push_back(static_cast<std::uint32_t>(i));
+    }
+    samples.source.reserve(count);
+    samples.cell.reserve(count - others.size());
+    for (std::size_t pixel = 0; pixel < standing.size(); ++pixel)
+        if (standing[pixel] != nobody) {
+            samples.source.push_back(standing[pixel]);
+            samples.cell.push_back(static_cast<std::uint32_t>(
+                ScreenSamples::margin + (pixel / width + 1) * static_cast<std::size_t>(samples.stride()) +
+                pixel % width + 1));
+        }
+    samples.standing = samples.source.size();
+    samples.source.insert(samples.source.end(), others.begin(), others.end());
+
+    const auto put = [&](auto& planes, std::size_t i, Vec3 v) {
+        planes[0][i] = static_cast<float>(dot(v, view.right));
+        planes[1][i] = static_cast<float>(-dot(v, view.up));
+        planes[2][i] = static_cast<float>(dot(v, view.forward));
     };
-    // The samples of a pixel follow each other: those of one that began in the part before are the part's before.
-    const auto startOf = [&](std::size_t i) {
-        while (i > 0 && i < samples.count && visible.pixels[i] == visible.pixels[i - 1]) ++i;
-        return std::min(i, samples.count);
-    };
-    parallelFor((samples.count + grain - 1) / grain, threads, [&](std::size_t part) {
-        const std::size_t end = startOf((part + 1) * grain);
-        for (std::size_t i = startOf(part * grain); i < end;) {
-            const std::uint32_t pixel = visible.pixels[i];
-            std::size_t widest = i;
-            for (; i < end && visible.pixels[i] == pixel; ++i) {
-                const Vec3 offset = toDouble(visible.positions[i]) - visible.eye;
-                // A shading normal that looks away spans no plane that is seen.
-                const Vec3 shading = toDouble(visible.normals[i]);
-                const Vec3 normal = dot(shading, offset) < 0 ? shading : toDouble(visible.geometric_normals[i]);
-                const auto p = inCamera(offset), n = inCamera(normal);
-                for (std::size_t k = 0; k < 3; ++k) samples.position[k][i] = p[k], samples.normal[k][i] = n[k];
-                if (visible.coverage[i] > visible.coverage[widest]) widest = i;
-            }
-            const auto width = static_cast<std::uint32_t>(view.width);
-            const std::uint32_t cell =
-                (pixel / width + 1) * static_cast<std::uint32_t>(samples.stride()) + pixel % width + 1;
-            samples.cell[widest] = cell;
-            samples.depth[cell] = samples.position[2][widest];
+    parallelFor((padded + grain - 1) / grain, threads, [&](std::size_t part) {
+        for (std::size_t i = part * grain; i < std::min(padded, (part + 1) * grain); ++i) {
+            const std::uint32_t from = samples.source[std::min(i, count - 1)];
+            const Vec3 offset = toDouble(visible.positions[from]) - visible.eye;
+            // A shading normal that looks away spans no plane that is seen.
+            const Vec3 shading = toDouble(visible.normals[from]);
+            put(samples.position, i, offset);
+            put(samples.normal, i, dot(shading, offset) < 0 ? shading : toDouble(visible.geometric_normals[from]));
+            if (i < samples.standing) samples.depth[samples.cell[i]] = samples.position[2][i];
         }
     });
-    for (std::size_t i = samples.count; i < padded; ++i)
-        for (auto* planes : {&samples.position, &samples.normal})
-            for (std::vector<float>& plane : *planes) plane[i] = plane[samples.count - 1];
     return samples;
 }
 
