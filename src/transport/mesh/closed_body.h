@@ -70,10 +70,11 @@ class MeshBody {
 public:
     /// Throws an input Error for a mesh that encloses nothing: open, inconsistently oriented, inside out, without
     /// volume; and for one so large against the mean free path that single precision would not do.
-    MeshBody(Mesh mesh, const MeshBodyOptions& options);
+    MeshBody(const Mesh& mesh, const MeshBodyOptions& options);
 
     double area() const { return area_to_.back(); }
     double volume() const { return volume_; }
+    /// The mesh, its triangles and vertices in an order of their own, and nothing beside them.
     const Mesh& mesh() const { return mesh_; }
     const RayScene& rays() const { return rays_; }
     const SurfaceCells& cells() const { return cells_; }
@@ -94,7 +95,8 @@ private:
     RayScene rays_;
     SurfaceCells cells_;
     SafeRegions regions_;
-    std::vector<double> area_to_;  ///< of the triangles up to each
+    std::vector<double> area_to_;        ///< of the triangles up to each
+    std::vector<std::ptrdiff_t> first_;  ///< of the triangles that end beyond each of as many equal parts of the area
     double volume_ = 0;
     double nudge_ = 0;  ///< mm: how far a point on the surface may be rounded off it
     double build_seconds_ = 0;
