@@ -175,12 +175,13 @@ struct Group {
     alignas(64) float reach[kLanes];  // mean free path; 0 in lanes without a walk
     alignas(64) std::int32_t survives[kLanes];
     float weight[kLanes];
+    std::uint32_t tag[kLanes];
 };
 
 template <class Body, class Regions, bool kIsotropic>
 class BodyWalker {
 public:
-    BodyWalker(const Body& body, const BodyMedium& medium, EntrySource<Body>& source, SplitMix64 seeds)
+    BodyWalker(const Body& body, const BodyMedium& medium, WalkSource& source, SplitMix64 seeds)
         : body_(body), medium_(medium), regions_(body), source_(source) {
         mfp_ = static_cast<float>(1 / medium.sigma_t);
         collisions_per_log_ = medium.absorbed > 0 ? -1 / std::log1p(-medium.absorbed) : 0;
@@ -209,8 +210,6 @@ public:
             }
             now_ ^= 1;
         }
-        chunk_.entry = source_.totals();
-        chunk_.candidates = source_.tried();
         return std::move(chunk_);
     }
 
@@ -343,7 +342,7 @@ private:
         const float weight = group.weight[lane];
         chunk_.left += weight;
         chunk_.exits = chunk_.exits + static_cast<double>(weight) * toDouble(crossing.position);
-        chunk_.cells.push_back({crossing.cell, weight});
+        source_.leave(group.tag[lane], weight, direction, crossing, chunk_.cells);
         end(group, lane, before.collisions[lane]);
     }
 
@@ -376,6 +375,7 @@ private:
         put(group, lanes, lane, entry.position, entry.direction);
         group.reach[lane] = mfp_;
         group.weight[lane] = entry.weight;
+        group.tag[lane] = entry.tag;
         // Absorption is drawn at once for the whole walk: it survives n collisions with probability albedo^n.
         if (collisions_per_log_ > 0)
             group.survives[lane] =
@@ -385,7 +385,7 @@ private:
     const Body& body_;
     BodyMedium medium_;
     Regions regions_;
-    EntrySource<Body>& source_;
+    WalkSource& source_;
     float mfp_;
     double collisions_per_log_;  // -1 / log(albedo)
     SplitMix64 random_;          // of what is rare: entries, the surface
@@ -397,16 +397,16 @@ private:
 };
 
 template <class Body, class Regions>
-BodyChunk walkIn(const Body& body, const BodyMedium& medium, EntrySource<Body>& source, SplitMix64 seeds) {
+BodyChunk walkIn(const Body& body, const BodyMedium& medium, WalkSource& source, SplitMix64 seeds) {
     if (medium.g == 0) return std::make_unique<BodyWalker<Body, Regions, true>>(body, medium, source, seeds)->run();
     return std::make_unique<BodyWalker<Body, Regions, false>>(body, medium, source, seeds)->run();
 }
 
-BodyChunk walkBall(const Ball& ball, const BodyMedium& medium, EntrySource<Ball>& source, SplitMix64 seeds) {
+BodyChunk walkBall(const Ball& ball, const BodyMedium& medium, WalkSource& source, SplitMix64 seeds) {
     return walkIn<Ball, BallRegions>(ball, medium, source, seeds);
 }
 
-BodyChunk walkMesh(const MeshBody& mesh, const BodyMedium& medium, EntrySource<MeshBody>& source, SplitMix64 seeds) {
+BodyChunk walkMesh(const MeshBody& mesh, const BodyMedium& medium, WalkSource& source, SplitMix64 seeds) {
     return walkIn<MeshBody, MeshRegions>(mesh, medium, source, seeds);
 }
 
@@ -454,12 +454,11 @@ void BodyChunk::unpack(std::span<const double> values) {
         cells.push_back({static_cast<std::uint32_t>(next[0]), static_cast<float>(next[1])});
 }
 
-BodyChunk walkBodyChunk(const Ball& ball, const BodyMedium& medium, EntrySource<Ball>& source, SplitMix64 seeds) {
+BodyChunk walkBodyChunk(const Ball& ball, const BodyMedium& medium, WalkSource& source, SplitMix64 seeds) {
     return HWY_DYNAMIC_DISPATCH(walkBall)(ball, medium, source, seeds);
 }
 
-BodyChunk walkBodyChunk(const MeshBody& mesh, const BodyMedium& medium, EntrySource<MeshBody>& source,
-                        SplitMix64 seeds) {
+BodyChunk walkBodyChunk(const MeshBody& mesh, const BodyMedium& medium, WalkSource& source, SplitMix64 seeds) {
     return HWY_DYNAMIC_DISPATCH(walkMesh)(mesh, medium, source, seeds);
 }
 

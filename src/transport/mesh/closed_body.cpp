@@ -134,6 +134,18 @@ void Ball::cross(std::span<const Ray> flights, std::span<Crossing> crossings) co
     }
 }
 
+std::optional<SurfacePoint> Ball::seen(Vec3 origin, Vec3 direction) const {
+    const double b = dot(origin, direction), c = dot(origin, origin) - radius_ * radius_;
+    if (b * b <= c || b > 0) return {};
+    const Vec3 normal = normalize(origin + (-b - std::sqrt(b * b - c)) * direction);
+    return SurfacePoint{radius_ * normal, normal};
+}
+
+std::optional<double> Ball::wayOut(Vec3 position, Vec3 wi, double) const {
+    const double b = dot(position, wi), c = dot(position, position) - radius_ * radius_;
+    return std::max(0.0, -b + std::sqrt(std::max(0.0, b * b - c)));
+}
+
 double enclosedVolume(const Mesh& mesh) {
     double volume = 0;
     for (const auto& [a, b, c] : mesh.triangles)
@@ -201,6 +213,24 @@ Vec3f MeshBody::below(const SurfacePoint& point) const { return toFloat(point.po
 bool MeshBody::occluded(const SurfacePoint& point, Vec3 wi, double distance) const {
     const float reach = static_cast<float>(distance);
     return rays_.occluded({toFloat(point.position + nudge_ * point.normal), toFloat(wi), 0, reach});
+}
+
+std::optional<SurfacePoint> MeshBody::seen(Vec3 origin, Vec3 direction) const {
+    const auto hit = rays_.intersect({toFloat(origin), toFloat(direction)});
+    if (!hit) return {};
+    const auto& [a, b, c] = mesh_.triangles[hit->triangle];
+    const Vec3 p = toDouble(mesh_.positions[a]);
+    return SurfacePoint{p + static_cast<double>(hit->u) * (toDouble(mesh_.positions[b]) - p) +
+                            static_cast<double>(hit->v) * (toDouble(mesh_.positions[c]) - p),
+                        toDouble(hit->normal)};
+}
+
+std::optional<double> MeshBody::wayOut(Vec3 position, Vec3 wi, double distance) const {
+    const auto hit = rays_.intersect({toFloat(position), toFloat(wi)});
+    if (!hit) return 0.0;  // on the surface, by rounding
+    const double out = static_cast<double>(hit->t);
+    if (occluded({position + out * wi, toDouble(hit->normal)}, wi, distance - out)) return {};
+    return out;
 }
 
 // A flight that starts on the surface may have been rounded to its far side and cross it inwards first: that crossing

@@ -50,6 +50,11 @@ public:
     Vec3f below(const SurfacePoint& point) const { return toFloat(point.position); }
     /// Whether the body hides what lies `distance` away in direction wi (unit, above the surface).
     bool occluded(const SurfacePoint&, Vec3, double) const { return false; }
+    /// Where a ray from outside meets the surface, its direction unit.
+    std::optional<SurfacePoint> seen(Vec3 origin, Vec3 direction) const;
+    /// How far it is to the surface from inside towards wi (unit), mm; nothing when light from there, `distance` away,
+    /// is hidden by another part of the body.
+    std::optional<double> wayOut(Vec3 position, Vec3 wi, double distance) const;
     /// Flights that may have left: where from t 0 to t_max they cross from inside.
     void cross(std::span<const Ray> flights, std::span<Crossing> crossings) const;
 
@@ -86,6 +91,8 @@ public:
     SurfacePoint pointAt(double u, double v, double w) const;
     Vec3f below(const SurfacePoint& point) const;
     bool occluded(const SurfacePoint& point, Vec3 wi, double distance) const;
+    std::optional<SurfacePoint> seen(Vec3 origin, Vec3 direction) const;
+    std::optional<double> wayOut(Vec3 position, Vec3 wi, double distance) const;
     void cross(std::span<const Ray> flights, std::span<Crossing> crossings) const;
 
 private:
