@@ -98,7 +98,7 @@ const Medium forward = makeMedium({0.0021}, {21.9}, {0.9}, 1.5);
 BENCHMARK_CAPTURE(shortRays, one_at_a_time, 0.33, false)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(shortRays, packets, 0.33, true)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(walk, marble_red_ray_each, marble_red, 0.33, false, 2e4)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(walk, marble_red_regions, marble_red, 0.33, true, 2e5)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(walk, marble_red_regions, marble_red, 0.33, true, 2e6)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(walk, marble_blue_regions, marble_blue, 0.33, true, 2e5)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(walk, skin1_red_regions, skin1_red, 0.41, true, 2e5)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(walk, forward_g_09_regions, forward, 0.046, true, 1e5)->Unit(benchmark::kMillisecond);

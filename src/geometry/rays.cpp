@@ -13,7 +13,7 @@ namespace searchlight {
 
 namespace {
 
-constexpr unsigned packet_size = 16;
+constexpr unsigned packet_size = 8;
 
 struct DeviceDeleter {
     void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
@@ -33,7 +33,7 @@ RTCRay toEmbree(const Ray& ray) {
     return out;
 }
 
-void setLane(RTCRay16& packet, unsigned lane, const Ray& ray) {
+void setLane(RTCRay8& packet, unsigned lane, const Ray& ray) {
     packet.org_x[lane] = ray.origin.x, packet.org_y[lane] = ray.origin.y, packet.org_z[lane] = ray.origin.z;
     packet.dir_x[lane] = ray.direction.x, packet.dir_y[lane] = ray.direction.y, packet.dir_z[lane] = ray.direction.z;
     packet.tnear[lane] = ray.t_min, packet.tfar[lane] = ray.t_max;
@@ -50,7 +50,7 @@ RTCIntersectContext makeContext(bool coherent) {
     return context;
 }
 
-// Calls trace(valid, first, lanes) for each sixteen of `count` rays; the last packet is partly masked.
+// Calls trace(valid, first, lanes) for each eight of `count` rays; the last packet is partly masked.
 template <class Trace>
 void forEachPacket(std::size_t count, const Trace& trace) {
     for (std::size_t first = 0; first < count; first += packet_size) {
@@ -66,8 +66,8 @@ void forEachPacket(std::size_t count, const Trace& trace) {
 struct RayScene::Impl {
     Device device;
     EmbreeScene scene;
-    std::vector<Vec3f> positions;
     std::vector<std::array<std::uint32_t, 3>> triangles;
+    std::vector<Vec3f> normals;
     float extent = 0;
 
     void check() const {
@@ -75,19 +75,18 @@ struct RayScene::Impl {
         if (error == RTC_ERROR_OUT_OF_MEMORY) throw deviceError("not enough memory to trace rays against the mesh");
         if (error != RTC_ERROR_NONE) throw deviceError("Embree cannot trace rays against the mesh");
     }
-
-    // In double: the edges of a sliver cancel in float.
-    Vec3f normal(std::uint32_t triangle) const {
-        const auto& [a, b, c] = triangles[triangle];
-        const Vec3 p = toDouble(positions[a]);
-        return toFloat(normalize(cross(toDouble(positions[b]) - p, toDouble(positions[c]) - p)));
-    }
 };
 
 RayScene::RayScene(const Mesh& mesh) : impl_(std::make_unique<Impl>()) {
     if (mesh.triangles.empty()) throw inputError("a mesh without triangles: rays have nothing to hit");
-    impl_->positions = mesh.positions;
     impl_->triangles = mesh.triangles;
+    impl_->normals.reserve(mesh.triangles.size());
+    for (const auto& [a, b, c] : mesh.triangles) {
+        // In double: the edges of a sliver cancel in float.
+        const Vec3 p = toDouble(mesh.positions[a]);
+        impl_->normals.push_back(
+            toFloat(normalize(cross(toDouble(mesh.positions[b]) - p, toDouble(mesh.positions[c]) - p))));
+    }
     for (const Vec3f& p : mesh.positions)
         impl_->extent = std::max({impl_->extent, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
 
@@ -120,7 +119,7 @@ std::optional<RayHit> RayScene::intersect(const Ray& ray) const {
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(impl_->scene.get(), &context, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
-    return RayHit{query.ray.tfar, query.hit.primID, query.hit.u, query.hit.v, impl_->normal(query.hit.primID)};
+    return RayHit{query.ray.tfar, query.hit.primID, query.hit.u, query.hit.v, impl_->normals[query.hit.primID]};
 }
 
 bool RayScene::occluded(const Ray& ray) const {
@@ -134,10 +133,10 @@ void RayScene::intersect(std::span<const Ray> rays, std::span<RayHit> results, b
     assert(rays.size() == results.size());
     RTCIntersectContext context = makeContext(coherent);
     forEachPacket(rays.size(), [&](const int* valid, std::size_t first, unsigned lanes) {
-        RTCRayHit16 packet;
+        RTCRayHit8 packet;
         for (unsigned lane = 0; lane < lanes; ++lane) setLane(packet.ray, lane, rays[first + lane]);
         for (unsigned lane = 0; lane < packet_size; ++lane) packet.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
-        rtcIntersect16(valid, impl_->scene.get(), &context, &packet);
+        rtcIntersect8(valid, impl_->scene.get(), &context, &packet);
         for (unsigned lane = 0; lane < lanes; ++lane) {
             RayHit& result = results[first + lane];
             if (packet.hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID) {
@@ -145,7 +144,8 @@ void RayScene::intersect(std::span<const Ray> rays, std::span<RayHit> results, b
                 continue;
             }
             const std::uint32_t triangle = packet.hit.primID[lane];
-            result = {packet.ray.tfar[lane], triangle, packet.hit.u[lane], packet.hit.v[lane], impl_->normal(triangle)};
+            result = {packet.ray.tfar[lane], triangle, packet.hit.u[lane], packet.hit.v[lane],
+                      impl_->normals[triangle]};
         }
     });
 }
@@ -154,9 +154,9 @@ void RayScene::occluded(std::span<const Ray> rays, std::span<std::uint8_t> resul
     assert(rays.size() == results.size());
     RTCIntersectContext context = makeContext(coherent);
     forEachPacket(rays.size(), [&](const int* valid, std::size_t first, unsigned lanes) {
-        RTCRay16 packet;
+        RTCRay8 packet;
         for (unsigned lane = 0; lane < lanes; ++lane) setLane(packet, lane, rays[first + lane]);
-        rtcOccluded16(valid, impl_->scene.get(), &context, &packet);
+        rtcOccluded8(valid, impl_->scene.get(), &context, &packet);
         for (unsigned lane = 0; lane < lanes; ++lane) results[first + lane] = packet.tfar[lane] < 0;
     });
 }
@@ -164,7 +164,7 @@ void RayScene::occluded(std::span<const Ray> rays, std::span<std::uint8_t> resul
 void RayScene::occluded(std::span<const Vec3f> origins, Vec3f direction, std::span<std::uint8_t> results) const {
     assert(origins.size() == results.size());
     RTCIntersectContext context = makeContext(true);
-    RTCRay16 packet;
+    RTCRay8 packet;
     for (unsigned lane = 0; lane < packet_size; ++lane) setLane(packet, lane, {{}, direction});
     forEachPacket(origins.size(), [&](const int* valid, std::size_t first, unsigned lanes) {
         for (unsigned lane = 0; lane < lanes; ++lane) {
@@ -172,7 +172,7 @@ void RayScene::occluded(std::span<const Vec3f> origins, Vec3f direction, std::sp
             packet.org_x[lane] = origin.x, packet.org_y[lane] = origin.y, packet.org_z[lane] = origin.z;
             packet.tfar[lane] = std::numeric_limits<float>::infinity();
         }
-        rtcOccluded16(valid, impl_->scene.get(), &context, &packet);
+        rtcOccluded8(valid, impl_->scene.get(), &context, &packet);
         for (unsigned lane = 0; lane < lanes; ++lane) results[first + lane] = packet.tfar[lane] < 0;
     });
 }

@@ -32,6 +32,11 @@ Vec3 Disc::sample(double u, double v) const {
 
 double Disc::solidAngle() const { return 2 * pi * versine_; }
 
+bool Disc::holds(Vec3 direction) const {
+    const Vec3 across = direction - centre_;  // its square is 2 (1 - cos)
+    return 0.5 * dot(across, across) < versine_;
+}
+
 double Disc::weight() const {
     // The solid angle over the integral of the cosine, pi sin^2 = pi versine (2 - versine).
     return 2 / (2 - versine_);

@@ -21,6 +21,9 @@ public:
     /// disc whose irradiance, on a surface that faces it, is 1.
     double weight() const;
 
+    /// Whether the disc is seen in a unit direction; a single direction is not.
+    bool holds(Vec3 direction) const;
+
 private:
     Vec3 centre_, tangent_, bitangent_;
     double versine_ = 0;  ///< 1 - cos of the disc's radius

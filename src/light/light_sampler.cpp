@@ -29,6 +29,14 @@ public:
         return sample;
     }
 
+    bool singular() const { return disc_.solidAngle() == 0; }
+
+    Rgb radiance(Vec3 position, Vec3 direction) const {
+        if (!disc_.holds(direction)) return {};
+        const Rgb radiance = (disc_.weight() / disc_.solidAngle()) * light_.irradiance;
+        return filter_ ? radiance * (*filter_)(position, 0) : radiance;
+    }
+
 private:
     DirectionalLight light_;
     Disc disc_;
@@ -48,6 +56,10 @@ public:
         if (chosen.pdf > 0) sample.irradiance_over_pdf = (1 / chosen.pdf) * chosen.radiance;
         return sample;
     }
+
+    bool singular() const { return false; }
+
+    Rgb radiance(Vec3, Vec3 direction) const { return environment_.radiance(direction); }
 
 private:
     Environment environment_;
@@ -73,6 +85,10 @@ public:
         if (distance == 0) return {};
         return {(1 / distance) * to_light, std::pow(unit_mm_ / distance, 2) * light_.intensity, 0, distance};
     }
+
+    bool singular() const { return true; }
+
+    Rgb radiance(Vec3, Vec3) const { return {}; }
 
 private:
     PointLight light_;
@@ -112,6 +128,19 @@ LightSampler::LightSampler(LightSampler&&) noexcept = default;
 LightSampler& LightSampler::operator=(LightSampler&&) noexcept = default;
 
 bool LightSampler::dark() const { return impl_->sources.empty(); }
+
+Rgb LightSampler::radiance(Vec3 position, Vec3 direction) const {
+    Rgb sum;
+    for (const Source& light : impl_->sources)
+        sum = sum + std::visit([&](const auto& source) { return source.radiance(position, direction); }, light);
+    return sum;
+}
+
+bool LightSampler::singular() const {
+    return std::ranges::any_of(impl_->sources, [](const Source& light) {
+        return std::visit([](const auto& source) { return source.singular(); }, light);
+    });
+}
 
 LightSample LightSampler::sample(Vec3 position, double u_light, double u, double v) const {
     if (dark()) return {};

@@ -33,6 +33,13 @@ public:
     /// At `position` (mm) for three uniform numbers in [0, 1).
     LightSample sample(Vec3 position, double u_light, double u, double v) const;
 
+    /// What comes to `position` (mm) from a unit direction, of lights that have an extent: the mean of sample() over
+    /// directions, where it is not from a single one.
+    Rgb radiance(Vec3 position, Vec3 direction) const;
+
+    /// Whether some light comes from a single direction at each point: no walk ever meets it.
+    bool singular() const;
+
     /// True when the scene has no light, or none that emits.
     bool dark() const;
 

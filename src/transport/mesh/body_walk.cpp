@@ -28,6 +28,7 @@
 // As in half_space_walk.cpp.
 #define HWY_DISABLED_TARGETS HWY_SSSE3
 #define HWY_BROKEN_EMU128 0
+#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 
 #include "transport/walk/lane_walk-inl.h"
@@ -36,106 +37,212 @@ HWY_BEFORE_NAMESPACE();
 namespace searchlight {
 namespace HWY_NAMESPACE {
 
-// Whether the flight from `before` may have met the surface, for a pack of lanes.
-class MayLeaveBall {
-public:
-    explicit MayLeaveBall(const Ball& ball) : square_(static_cast<float>(ball.radius() * ball.radius())) {}
+// A convex region without surface: a ball cut by a plane.
+struct Region {
+    FloatV x, y, z, square;     // middle of the ball, and square of its radius
+    FloatV nx, ny, nz, offset;  // normal . (position - middle) is below offset
 
-    HWY_INLINE FloatM operator()(const Pack&, FloatV, const Pack& after) const {
-        const FloatV square = hn::MulAdd(after.x, after.x, hn::MulAdd(after.y, after.y, hn::Mul(after.z, after.z)));
-        return hn::Gt(square, hn::Set(Float(), square_));
+    HWY_INLINE FloatM holds(FloatV px, FloatV py, FloatV pz) const {
+        const FloatV dx = hn::Sub(px, x), dy = hn::Sub(py, y), dz = hn::Sub(pz, z);
+        const FloatV away = hn::MulAdd(dx, dx, hn::MulAdd(dy, dy, hn::Mul(dz, dz)));
+        const FloatV height = hn::MulAdd(nx, dx, hn::MulAdd(ny, dy, hn::Mul(nz, dz)));
+        return hn::And(hn::Lt(away, square), hn::Lt(height, offset));
     }
+};
+
+// Of each lane the region that its walk is in; a square of 0 where none is known.
+struct alignas(64) LaneRegions {
+    float x[kLanes], y[kLanes], z[kLanes], square[kLanes];
+    float nx[kLanes], ny[kLanes], nz[kLanes], offset[kLanes];
+
+    HWY_INLINE Region load(std::size_t at) const {
+        const Float d;
+        return {hn::Load(d, x + at),  hn::Load(d, y + at),  hn::Load(d, z + at),  hn::Load(d, square + at),
+                hn::Load(d, nx + at), hn::Load(d, ny + at), hn::Load(d, nz + at), hn::Load(d, offset + at)};
+    }
+    HWY_INLINE void scatter(const Region& r, IntV lanes) {
+        const Float d;
+        hn::ScatterIndex(r.x, d, x, lanes), hn::ScatterIndex(r.y, d, y, lanes), hn::ScatterIndex(r.z, d, z, lanes);
+        hn::ScatterIndex(r.nx, d, nx, lanes), hn::ScatterIndex(r.ny, d, ny, lanes);
+        hn::ScatterIndex(r.nz, d, nz, lanes), hn::ScatterIndex(r.offset, d, offset, lanes);
+        hn::ScatterIndex(r.square, d, square, lanes);
+    }
+};
+
+// The region of a ball: itself.
+class BallRegions {
+public:
+    explicit BallRegions(const Ball& ball) : square_(static_cast<float>(ball.radius() * ball.radius())) {}
+    float first() const { return square_; }
+    bool tabulated() const { return false; }
+    void fetch(Vec3f) const {}
+    HWY_INLINE Region at(FloatV x, FloatV y, FloatV z) const { return {x, y, z, x, x, y, z, x}; }
 
 private:
     float square_;
 };
 
-class MayLeaveMesh {
+class MeshRegions {
 public:
-    explicit MayLeaveMesh(const MeshBody& mesh)
+    explicit MeshRegions(const MeshBody& mesh)
         : regions_(mesh.regions()),
-          table_(reinterpret_cast<const float*>(regions_.regions.data())),
-          per_cell_(1 / regions_.cell_mm) {}
+          table_(reinterpret_cast<const std::int32_t*>(regions_.regions.data())),
+          per_cell_(1 / regions_.cell_mm) {
+        const double step = static_cast<double>(regions_.cell_mm) / SafeRegion::kSteps;
+        step_ = static_cast<float>(step);
+        height_step_ = static_cast<float>(SafeRegion::kNormal * step);
+    }
 
-    HWY_INLINE FloatM operator()(const Pack& before, FloatV length, const Pack& after) const {
+    // What a walk starts with: nothing is known.
+    float first() const { return 0; }
+    bool tabulated() const { return table_ != nullptr; }
+
+    // Asks the memory for what at() will need.
+    HWY_INLINE void fetch(Vec3f p) const {
+        const auto cell = [&](float position, float low, std::int32_t n) {
+            return static_cast<std::int32_t>(
+                std::min(std::max((position - low) * per_cell_, 0.0f), static_cast<float>(n - 1)));
+        };
+        hwy::Prefetch(&regions_.regions[regions_.indexOf(cell(p.x, regions_.origin.x, regions_.nx),
+                                                         cell(p.y, regions_.origin.y, regions_.ny),
+                                                         cell(p.z, regions_.origin.z, regions_.nz))]);
+    }
+
+    // Of the cell that a point is in; of one beyond the grid a region that does not hold it.
+    HWY_INLINE Region at(FloatV px, FloatV py, FloatV pz) const {
         const Float d;
         const Int di;
-        const FloatV scale = hn::Set(d, per_cell_);
-        const auto cell = [&](FloatV position, float low) {
-            return hn::ConvertTo(di, hn::Mul(hn::Sub(position, hn::Set(d, low)), scale));
+        const auto cell = [&](FloatV position, float low, std::int32_t n) {
+            const FloatV place = hn::Mul(hn::Sub(position, hn::Set(d, low)), hn::Set(d, per_cell_));
+            const FloatV last = hn::Set(d, static_cast<float>(n - 1));
+            return hn::ConvertTo(di, hn::Min(hn::Max(place, hn::Zero(d)), last));
         };
-        const IntV x = cell(before.x, regions_.origin.x), y = cell(before.y, regions_.origin.y),
-                   z = cell(before.z, regions_.origin.z);
-        const IntV row = hn::Add(hn::Mul(z, hn::Set(di, regions_.ny)), y);
-        const IntV index = hn::Add(hn::Mul(row, hn::Set(di, regions_.nx)), x);
-        static_assert(sizeof(SafeRegion) == 8 * sizeof(float));
-        const IntV at = hn::ShiftLeft<3>(hn::GatherIndex(di, regions_.regions_of.data(), index));
-        const FloatV nx = hn::GatherIndex(d, table_, at), ny = hn::GatherIndex(d, table_ + 1, at),
-                     nz = hn::GatherIndex(d, table_ + 2, at), offset = hn::GatherIndex(d, table_ + 3, at),
-                     reach = hn::GatherIndex(d, table_ + 4, at);
-        const auto height = [&](const Pack& pack) {
-            return hn::MulAdd(nx, pack.x, hn::MulAdd(ny, pack.y, hn::Mul(nz, pack.z)));
+        const IntV x = cell(px, regions_.origin.x, regions_.nx), y = cell(py, regions_.origin.y, regions_.ny),
+                   z = cell(pz, regions_.origin.z, regions_.nz);
+        const auto brick = [&](IntV of, std::int32_t n, IntV rest) {
+            return hn::Add(hn::Mul(rest, hn::Set(di, n >> 3)), hn::ShiftRight<3>(of));
         };
-        const FloatV highest = hn::Max(height(before), height(after));
-        return hn::Or(hn::Ge(length, reach), hn::Ge(highest, offset));
+        const IntV seven = hn::Set(di, 7);
+        const IntV within =
+            hn::Or(hn::And(x, seven), hn::Or(hn::ShiftLeft<3>(hn::And(y, seven)), hn::ShiftLeft<6>(hn::And(z, seven))));
+        const IntV bricks = brick(x, regions_.nx, brick(y, regions_.ny, hn::ShiftRight<3>(z)));
+        static_assert(sizeof(SafeRegion) == 2 * sizeof(std::int32_t));
+        const IntV first = hn::ShiftLeft<1>(hn::Or(hn::ShiftLeft<9>(bricks), within));
+        const IntV normal = hn::GatherIndex(di, table_, first), lengths = hn::GatherIndex(di, table_ + 1, first);
+        const auto middle = [&](IntV of, float low) {
+            const FloatV place = hn::Add(hn::ConvertTo(d, of), hn::Set(d, 0.5f));
+            return hn::MulAdd(place, hn::Set(d, regions_.cell_mm), hn::Set(d, low));
+        };
+        const auto component = [&](IntV bits) { return hn::ConvertTo(d, hn::ShiftRight<22>(bits)); };
+        const FloatV radius = hn::Mul(hn::ConvertTo(d, hn::And(lengths, hn::Set(di, 0xFFFF))), hn::Set(d, step_));
+        return {middle(x, regions_.origin.x),
+                middle(y, regions_.origin.y),
+                middle(z, regions_.origin.z),
+                hn::Mul(radius, radius),
+                component(normal),
+                component(hn::ShiftLeft<10>(normal)),
+                component(hn::ShiftLeft<20>(normal)),
+                hn::Mul(hn::ConvertTo(d, hn::ShiftRight<16>(lengths)), hn::Set(d, height_step_))};
     }
 
 private:
     const SafeRegions& regions_;
-    const float* table_;
-    float per_cell_;
+    const std::int32_t* table_;
+    float per_cell_, step_, height_step_;
 };
 
 // A walk that is taken back more often is in a place that is none: a fold, or two surfaces that cross.
 constexpr int kMostTakenBack = 16;
 
-template <class Body, class MayLeave, bool kIsotropic>
+// Groups of lanes take turns: while the memory fetches regions for one, the processor walks the others, and rays of
+// all are asked together.
+constexpr std::size_t kGroups = 4;
+
+struct Group {
+    struct Sure {
+        Vec3f position, direction;
+        std::int32_t collisions = 0;
+    };
+
+    std::uint64_t walking = 0;    // a bit per lane
+    std::uint64_t uncleared = 0;  // flights that may have met the surface
+    std::uint64_t ends = 0;       // absorbed
+    std::uint64_t doubtful = 0;   // flights since `sure` were tested and met nothing
+    Sure sure[kLanes];            // of those lanes: the start of the last flight known to begin inside
+    int taken_back[kLanes] = {};
+    Lanes lanes[2] = {};
+    LaneRegions regions = {};
+    alignas(64) float reach[kLanes];  // mean free path; 0 in lanes without a walk
+    alignas(64) std::int32_t survives[kLanes];
+    float weight[kLanes];
+    std::uint32_t tag[kLanes];
+};
+
+template <class Body, class Regions, bool kIsotropic>
 class BodyWalker {
 public:
-    BodyWalker(const Body& body, const BodyMedium& medium, EntrySource<Body>& source, SplitMix64 seeds)
-        : body_(body), medium_(medium), may_leave_(body), source_(source) {
+    BodyWalker(const Body& body, const BodyMedium& medium, WalkSource& source, SplitMix64 seeds)
+        : body_(body), medium_(medium), regions_(body), source_(source) {
         mfp_ = static_cast<float>(1 / medium.sigma_t);
         collisions_per_log_ = medium.absorbed > 0 ? -1 / std::log1p(-medium.absorbed) : 0;
-        seed(*from_, seeds);
+        for (Group& group : groups_) {
+            seed(group.lanes[0], seeds);
+            std::ranges::fill(group.regions.offset, 1.0f);
+        }
         random_ = SplitMix64(seeds.next());
     }
 
     BodyChunk run() {
-        const std::size_t width = hn::Lanes(Float());
-        for (std::size_t lane = 0; lane < kLanes; ++lane) start(*from_, lane);
-        while (walking_ != 0) {
-            std::uint64_t may_leave = 0, ends = 0;
-            for (std::size_t at = 0; at < kLanes; at += width) advance(at, may_leave, ends);
-            chunk_.flights += static_cast<std::uint64_t>(std::popcount(walking_));
-            may_leave &= walking_;
-            doubtful_ &= may_leave;  // the others are inside
-            if (may_leave != 0) ends &= ~cross(may_leave);
-            for (; ends != 0; ends &= ends - 1) {
-                const auto lane = static_cast<std::size_t>(std::countr_zero(ends));
-                chunk_.absorbed += weight_[lane];
-                end(lane, to_->collisions[lane]);
+        for (Group& group : groups_)
+            for (std::size_t lane = 0; lane < kLanes; ++lane) start(group, group.lanes[0], lane);
+        const auto walks = [](const Group& group) { return group.walking != 0; };
+        while (std::ranges::any_of(groups_, walks)) {
+            for (Group& group : groups_) advance(group);
+            if (regions_.tabulated())
+                for (Group& group : groups_) lookUp(group);
+            cross();
+            for (Group& group : groups_) {
+                for (; group.ends != 0; group.ends &= group.ends - 1) {
+                    const auto lane = static_cast<std::size_t>(std::countr_zero(group.ends));
+                    chunk_.absorbed += group.weight[lane];
+                    end(group, lane, to(group).collisions[lane]);
+                }
             }
-            std::swap(from_, to_);
+            now_ ^= 1;
         }
-        chunk_.entry = source_.totals();
-        chunk_.candidates = source_.tried();
         return std::move(chunk_);
     }
 
 private:
-    HWY_INLINE void advance(std::size_t at, std::uint64_t& may_leave, std::uint64_t& ends) {
+    Lanes& from(Group& group) const { return group.lanes[now_]; }
+    Lanes& to(Group& group) const { return group.lanes[now_ ^ 1]; }
+
+    HWY_INLINE void advance(Group& group) {
         const Float d;
-        const Pack before = load(*from_, at);
-        Pack pack = before;
-        const FloatV length = hn::Mul(exponential(pack.random.next()), hn::Load(d, reach_ + at));
-        fly(pack, length);
-        const FloatM leaves = may_leave_(before, length, pack);
+        const std::size_t width = hn::Lanes(d);
         const double g = medium_.g;
-        scatter<kIsotropic>(pack, hn::Set(d, static_cast<float>(g)),
-                            hn::Set(d, static_cast<float>(0.5 * (1 - g) * (1 - g))));
-        store(pack, *to_, at);
-        may_leave |= bitsOf(leaves) << at;
-        ends |= bitsOf(hn::RebindMask(d, hn::Gt(pack.collisions, hn::Load(Int(), survives_ + at)))) << at;
+        const FloatV asymmetry = hn::Set(d, static_cast<float>(g)),
+                     half_qq = hn::Set(d, static_cast<float>(0.5 * (1 - g) * (1 - g)));
+        const Lanes& before = from(group);
+        Lanes& after = to(group);
+        std::uint64_t stay = 0, ends = 0;
+        for (std::size_t at = 0; at < kLanes; at += width) {
+            Pack pack = load(before, at);
+            fly(pack, hn::Mul(exponential(pack.random.next()), hn::Load(d, group.reach + at)));
+            stay |= bitsOf(group.regions.load(at).holds(pack.x, pack.y, pack.z)) << at;
+            scatter<kIsotropic>(pack, asymmetry, half_qq);
+            store(pack, after, at);
+            ends |= bitsOf(hn::RebindMask(d, hn::Gt(pack.collisions, hn::Load(Int(), group.survives + at)))) << at;
+        }
+        group.uncleared = group.walking & ~stay;
+        group.ends = ends;
+        chunk_.flights += static_cast<std::uint64_t>(std::popcount(group.walking));
+        if (!regions_.tabulated()) return;
+        for (std::uint64_t rest = group.uncleared; rest != 0; rest &= rest - 1) {
+            const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+            regions_.fetch({after.x[lane], after.y[lane], after.z[lane]});
+            regions_.fetch({before.x[lane], before.y[lane], before.z[lane]});
+        }
     }
 
     static HWY_INLINE std::uint64_t bitsOf(FloatM mask) {
@@ -144,133 +251,163 @@ private:
         return bits[0] | static_cast<std::uint64_t>(bits[1]) << 8;
     }
 
-    // Tests flights against the surface; returns the lanes that met it.
-    std::uint64_t cross(std::uint64_t lanes) {
-        Ray flights[kLanes];
-        Crossing crossings[kLanes];
+    // Finds regions for walks that left theirs, and so clears flights.
+    HWY_INLINE void lookUp(Group& group) {
+        const Float d;
+        const Int di;
+        const std::size_t width = hn::Lanes(d);
+        HWY_ALIGN std::int32_t list[kLanes];
         std::size_t count = 0;
-        for (std::uint64_t rest = lanes; rest != 0; rest &= rest - 1) {
-            const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
-            const Vec3f start{from_->x[lane], from_->y[lane], from_->z[lane]};
-            flights[count++] = {start, {to_->x[lane] - start.x, to_->y[lane] - start.y, to_->z[lane] - start.z}, 0, 1};
+        for (std::uint64_t rest = group.uncleared; rest != 0; rest &= rest - 1) list[count++] = std::countr_zero(rest);
+        while (count % width != 0) list[count] = list[count - 1], ++count;
+        const Lanes &before = from(group), &after = to(group);
+        for (std::size_t i = 0; i < count; i += width) {
+            const IntV at = hn::Load(di, list + i);
+            const auto take = [&](const float* of) { return hn::GatherIndex(d, of, at); };
+            const FloatV px = take(before.x), py = take(before.y), pz = take(before.z);
+            const FloatV qx = take(after.x), qy = take(after.y), qz = take(after.z);
+            // Preferably the region of where the flight ends: the next one begins there.
+            const Region end = regions_.at(qx, qy, qz), begin = regions_.at(px, py, pz);
+            const FloatM useful = end.holds(qx, qy, qz), by_end = hn::And(useful, end.holds(px, py, pz));
+            const FloatM by_begin = hn::And(begin.holds(qx, qy, qz), begin.holds(px, py, pz));
+            const auto choose = [&](FloatV a, FloatV b) { return hn::IfThenElse(useful, a, b); };
+            group.regions.scatter(
+                {choose(end.x, begin.x), choose(end.y, begin.y), choose(end.z, begin.z),
+                 choose(end.square, hn::IfThenElseZero(by_begin, begin.square)), choose(end.nx, begin.nx),
+                 choose(end.ny, begin.ny), choose(end.nz, begin.nz), choose(end.offset, begin.offset)},
+                at);
+            std::uint64_t cleared = bitsOf(hn::Or(by_end, by_begin));
+            for (; cleared != 0; cleared &= cleared - 1)
+                group.uncleared &= ~(std::uint64_t{1} << list[i + static_cast<std::size_t>(std::countr_zero(cleared))]);
+        }
+    }
+
+    // Tests flights that no region clears against the surface.
+    void cross() {
+        std::size_t count = 0;
+        for (Group& group : groups_) {
+            group.doubtful &= group.uncleared;  // the others are inside
+            const Lanes &before = from(group), &after = to(group);
+            for (std::uint64_t rest = group.uncleared; rest != 0; rest &= rest - 1) {
+                const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+                const Vec3f start{before.x[lane], before.y[lane], before.z[lane]};
+                flights_[count++] = {
+                    start, {after.x[lane] - start.x, after.y[lane] - start.y, after.z[lane] - start.z}, 0, 1};
+            }
         }
         chunk_.rays += count;
-        body_.cross({flights, count}, {crossings, count});
-        std::uint64_t met = 0;
-        const Crossing* crossing = crossings;
-        for (std::uint64_t rest = lanes; rest != 0; rest &= rest - 1, ++crossing) {
-            const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
-            const std::uint64_t bit = std::uint64_t{1} << lane;
-            if (crossing->what != Crossing::What::surface && (doubtful_ & bit) == 0) {
-                doubtful_ |= bit;
-                sure_[lane] = {{from_->x[lane], from_->y[lane], from_->z[lane]},
-                               {from_->u[lane], from_->v[lane], from_->w[lane]},
-                               from_->collisions[lane]};
-            }
-            if (crossing->what == Crossing::What::none) continue;
-            met |= bit;
-            to_->collisions[lane] = from_->collisions[lane];
-            if (crossing->what == Crossing::What::surface) {
-                doubtful_ &= ~bit;
-                meet(lane, *crossing);
-            } else if (++taken_back_[lane] > kMostTakenBack) {
-                ++chunk_.lost;
-                end(lane, to_->collisions[lane]);
-            } else {
-                ++chunk_.taken_back;
-                put(*to_, lane, sure_[lane].position, sure_[lane].direction);
-                to_->collisions[lane] = sure_[lane].collisions;
-            }
+        body_.cross({flights_, count}, {crossings_, count});
+        const Crossing* crossing = crossings_;
+        for (Group& group : groups_)
+            for (std::uint64_t rest = group.uncleared; rest != 0; rest &= rest - 1)
+                settle(group, static_cast<std::size_t>(std::countr_zero(rest)), *crossing++);
+    }
+
+    void settle(Group& group, std::size_t lane, const Crossing& crossing) {
+        const std::uint64_t bit = std::uint64_t{1} << lane;
+        const Lanes& before = from(group);
+        Lanes& after = to(group);
+        if (crossing.what != Crossing::What::surface && (group.doubtful & bit) == 0) {
+            group.doubtful |= bit;
+            group.sure[lane] = {{before.x[lane], before.y[lane], before.z[lane]},
+                                {before.u[lane], before.v[lane], before.w[lane]},
+                                before.collisions[lane]};
         }
-        return met;
+        if (crossing.what == Crossing::What::none) return;
+        group.ends &= ~bit;
+        after.collisions[lane] = before.collisions[lane];
+        if (crossing.what == Crossing::What::surface) {
+            group.doubtful &= ~bit;
+            meet(group, lane, crossing);
+        } else if (++group.taken_back[lane] > kMostTakenBack) {
+            ++chunk_.lost;
+            end(group, lane, after.collisions[lane]);
+        } else {
+            ++chunk_.taken_back;
+            const Group::Sure& sure = group.sure[lane];
+            put(group, after, lane, sure.position, sure.direction);
+            after.collisions[lane] = sure.collisions;
+        }
     }
 
     // Leaves through the surface or is reflected by it.
-    void meet(std::size_t lane, const Crossing& crossing) {
-        const Vec3 direction{from_->u[lane], from_->v[lane], from_->w[lane]};
+    void meet(Group& group, std::size_t lane, const Crossing& crossing) {
+        const Lanes& before = from(group);
+        const Vec3 direction{before.u[lane], before.v[lane], before.w[lane]};
         const double cosine = std::clamp(dot(direction, crossing.normal), 0.0, 1.0);
         if (medium_.eta != 1 && random_.uniform() < internalReflectance(medium_.eta, cosine)) {
-            put(*to_, lane, crossing.inside, toFloat(normalize(direction - 2 * cosine * crossing.normal)));
+            put(group, to(group), lane, crossing.inside, toFloat(normalize(direction - 2 * cosine * crossing.normal)));
             return;
         }
-        chunk_.left += weight_[lane];
-        chunk_.exits = chunk_.exits + static_cast<double>(weight_[lane]) * toDouble(crossing.position);
-        chunk_.cells.push_back({crossing.cell, weight_[lane]});
-        end(lane, from_->collisions[lane]);
+        const float weight = group.weight[lane];
+        chunk_.left += weight;
+        chunk_.exits = chunk_.exits + static_cast<double>(weight) * toDouble(crossing.position);
+        source_.leave(group.tag[lane], weight, direction, crossing, chunk_.cells);
+        end(group, lane, before.collisions[lane]);
     }
 
-    static void put(Lanes& lanes, std::size_t lane, Vec3f position, Vec3f direction) {
+    void put(Group& group, Lanes& lanes, std::size_t lane, Vec3f position, Vec3f direction) {
+        group.regions.square[lane] = regions_.first();
         lanes.x[lane] = position.x, lanes.y[lane] = position.y, lanes.z[lane] = position.z;
         lanes.u[lane] = direction.x, lanes.v[lane] = direction.y, lanes.w[lane] = direction.z;
     }
 
-    void end(std::size_t lane, std::int32_t collisions) {
+    void end(Group& group, std::size_t lane, std::int32_t collisions) {
         chunk_.collisions += static_cast<std::uint64_t>(collisions);
-        start(*to_, lane);
+        start(group, to(group), lane);
     }
 
     // The next walk, or none: a lane without one stays where it is.
-    void start(Lanes& lanes, std::size_t lane) {
+    void start(Group& group, Lanes& lanes, std::size_t lane) {
+        const std::uint64_t bit = std::uint64_t{1} << lane;
         Entry entry;
         lanes.collisions[lane] = 0;
-        doubtful_ &= ~(std::uint64_t{1} << lane);
-        taken_back_[lane] = 0;
+        group.doubtful &= ~bit;
+        group.taken_back[lane] = 0;
+        group.survives[lane] = kNever;
         if (!source_.next(entry)) {
-            put(lanes, lane, last_, {0, 0, 1});
-            reach_[lane] = 0;
-            survives_[lane] = kNever;
-            walking_ &= ~(std::uint64_t{1} << lane);
+            put(group, lanes, lane, {}, {0, 0, 1});
+            group.reach[lane] = 0;
+            group.walking &= ~bit;
             return;
         }
-        walking_ |= std::uint64_t{1} << lane;
-        last_ = entry.position;
-        put(lanes, lane, entry.position, entry.direction);
-        reach_[lane] = mfp_;
-        weight_[lane] = entry.weight;
-        survives_[lane] = kNever;
+        group.walking |= bit;
+        put(group, lanes, lane, entry.position, entry.direction);
+        group.reach[lane] = mfp_;
+        group.weight[lane] = entry.weight;
+        group.tag[lane] = entry.tag;
         // Absorption is drawn at once for the whole walk: it survives n collisions with probability albedo^n.
         if (collisions_per_log_ > 0)
-            survives_[lane] =
+            group.survives[lane] =
                 static_cast<std::int32_t>(std::min(-std::log(random_.uniform()) * collisions_per_log_, 0x1p30));
     }
 
     const Body& body_;
     BodyMedium medium_;
-    MayLeave may_leave_;
-    EntrySource<Body>& source_;
+    Regions regions_;
+    WalkSource& source_;
     float mfp_;
     double collisions_per_log_;  // -1 / log(albedo)
     SplitMix64 random_;          // of what is rare: entries, the surface
-    std::uint64_t walking_ = 0;  // a bit per lane
-    Vec3f last_;                 // where lanes without a walk wait: in reach of the tables
+    int now_ = 0;                // which lanes a step begins from
     BodyChunk chunk_;
-    struct Sure {
-        Vec3f position, direction;
-        std::int32_t collisions = 0;
-    };
-    std::uint64_t doubtful_ = 0;  // a bit per lane: flights since sure_ were tested and met nothing
-    Sure sure_[kLanes];           // of those lanes: the start of the last flight known to
-                                  // begin inside
-    int taken_back_[kLanes] = {};
-    Lanes lanes_[2] = {};
-    Lanes *from_ = &lanes_[0], *to_ = &lanes_[1];
-    alignas(64) float reach_[kLanes];  // mean free path; 0 in lanes without a walk
-    alignas(64) std::int32_t survives_[kLanes];
-    float weight_[kLanes];
+    Group groups_[kGroups];
+    Ray flights_[kGroups * kLanes];
+    Crossing crossings_[kGroups * kLanes];
 };
 
-template <class Body, class MayLeave>
-BodyChunk walkIn(const Body& body, const BodyMedium& medium, EntrySource<Body>& source, SplitMix64 seeds) {
-    if (medium.g == 0) return std::make_unique<BodyWalker<Body, MayLeave, true>>(body, medium, source, seeds)->run();
-    return std::make_unique<BodyWalker<Body, MayLeave, false>>(body, medium, source, seeds)->run();
+template <class Body, class Regions>
+BodyChunk walkIn(const Body& body, const BodyMedium& medium, WalkSource& source, SplitMix64 seeds) {
+    if (medium.g == 0) return std::make_unique<BodyWalker<Body, Regions, true>>(body, medium, source, seeds)->run();
+    return std::make_unique<BodyWalker<Body, Regions, false>>(body, medium, source, seeds)->run();
 }
 
-BodyChunk walkBall(const Ball& ball, const BodyMedium& medium, EntrySource<Ball>& source, SplitMix64 seeds) {
-    return walkIn<Ball, MayLeaveBall>(ball, medium, source, seeds);
+BodyChunk walkBall(const Ball& ball, const BodyMedium& medium, WalkSource& source, SplitMix64 seeds) {
+    return walkIn<Ball, BallRegions>(ball, medium, source, seeds);
 }
 
-BodyChunk walkMesh(const MeshBody& mesh, const BodyMedium& medium, EntrySource<MeshBody>& source, SplitMix64 seeds) {
-    return walkIn<MeshBody, MayLeaveMesh>(mesh, medium, source, seeds);
+BodyChunk walkMesh(const MeshBody& mesh, const BodyMedium& medium, WalkSource& source, SplitMix64 seeds) {
+    return walkIn<MeshBody, MeshRegions>(mesh, medium, source, seeds);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -317,12 +454,11 @@ void BodyChunk::unpack(std::span<const double> values) {
         cells.push_back({static_cast<std::uint32_t>(next[0]), static_cast<float>(next[1])});
 }
 
-BodyChunk walkBodyChunk(const Ball& ball, const BodyMedium& medium, EntrySource<Ball>& source, SplitMix64 seeds) {
+BodyChunk walkBodyChunk(const Ball& ball, const BodyMedium& medium, WalkSource& source, SplitMix64 seeds) {
     return HWY_DYNAMIC_DISPATCH(walkBall)(ball, medium, source, seeds);
 }
 
-BodyChunk walkBodyChunk(const MeshBody& mesh, const BodyMedium& medium, EntrySource<MeshBody>& source,
-                        SplitMix64 seeds) {
+BodyChunk walkBodyChunk(const MeshBody& mesh, const BodyMedium& medium, WalkSource& source, SplitMix64 seeds) {
     return HWY_DYNAMIC_DISPATCH(walkMesh)(mesh, medium, source, seeds);
 }
 

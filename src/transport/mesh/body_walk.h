@@ -18,12 +18,6 @@ struct BodyMedium {
     double eta = 1;
 };
 
-/// Flux that left through a cell.
-struct CellExit {
-    std::uint32_t cell = 0;
-    float weight = 0;
-};
-
 /// What the walks of one chunk did; flux in multiples of EntryOptions::whole.
 struct BodyChunk {
     EntryTotals entry;
@@ -42,9 +36,9 @@ struct BodyChunk {
     void unpack(std::span<const double> values);
 };
 
-/// Walks every candidate of the source to its end. Depends on its arguments alone.
-BodyChunk walkBodyChunk(const Ball& ball, const BodyMedium& medium, EntrySource<Ball>& source, SplitMix64 seeds);
-BodyChunk walkBodyChunk(const MeshBody& mesh, const BodyMedium& medium, EntrySource<MeshBody>& source,
-                        SplitMix64 seeds);
+/// Walks every walk of the source to its end; `entry` and `candidates` are the caller's to fill. Depends on its
+/// arguments alone.
+BodyChunk walkBodyChunk(const Ball& ball, const BodyMedium& medium, WalkSource& source, SplitMix64 seeds);
+BodyChunk walkBodyChunk(const MeshBody& mesh, const BodyMedium& medium, WalkSource& source, SplitMix64 seeds);
 
 }  // namespace searchlight

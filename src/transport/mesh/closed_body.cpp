@@ -6,7 +6,9 @@
 #include <cassert>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <utility>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -53,6 +55,50 @@ std::string faultOfEdges(const Mesh& mesh) {
                        corner(first->side + std::size_t{1}), first->triangle);
 }
 
+// The same surface with triangles, and the vertices that they use, in the order of a Morton curve: what walks touch one
+// after the other lies side by side.
+Mesh alongCurve(const Mesh& mesh) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    Vec3 low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
+    std::vector<Vec3> middles;
+    for (const auto& [a, b, c] : mesh.triangles) {
+        const Vec3 p =
+            (1 / 3.0) * (toDouble(mesh.positions[a]) + toDouble(mesh.positions[b]) + toDouble(mesh.positions[c]));
+        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+        middles.push_back(p);
+    }
+    constexpr int levels = 10;
+    const double side = std::max({high.x - low.x, high.y - low.y, high.z - low.z}) * (1 + 1e-9);
+    const auto spread = [&](double x) {
+        const auto place = side > 0 ? static_cast<std::uint32_t>((1 << levels) * (x / side)) : 0;
+        std::uint32_t bits = 0;
+        for (int i = 0; i < levels; ++i) bits |= (place >> i & 1) << 3 * i;
+        return bits;
+    };
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> order;
+    for (std::uint32_t t = 0; t < middles.size(); ++t) {
+        const Vec3 p = middles[t] - low;
+        order.push_back({spread(p.x) | spread(p.y) << 1 | spread(p.z) << 2, t});
+    }
+    std::ranges::sort(order);
+    constexpr auto none = std::numeric_limits<std::uint32_t>::max();
+    std::vector<std::uint32_t> number(mesh.positions.size(), none);
+    Mesh sorted;
+    for (const auto& [key, t] : order) {
+        auto triangle = mesh.triangles[t];
+        for (std::uint32_t& v : triangle) {
+            if (number[v] == none) {
+                number[v] = static_cast<std::uint32_t>(sorted.positions.size());
+                sorted.positions.push_back(mesh.positions[v]);
+            }
+            v = number[v];
+        }
+        sorted.triangles.push_back(triangle);
+    }
+    return sorted;
+}
+
 }  // namespace
 
 Ball::Ball(double radius_mm, double cell_area_mm2) : radius_(radius_mm) {
@@ -88,6 +134,18 @@ void Ball::cross(std::span<const Ray> flights, std::span<Crossing> crossings) co
     }
 }
 
+std::optional<SurfacePoint> Ball::seen(Vec3 origin, Vec3 direction) const {
+    const double b = dot(origin, direction), c = dot(origin, origin) - radius_ * radius_;
+    if (b * b <= c || b > 0) return {};
+    const Vec3 normal = normalize(origin + (-b - std::sqrt(b * b - c)) * direction);
+    return SurfacePoint{radius_ * normal, normal};
+}
+
+std::optional<double> Ball::wayOut(Vec3 position, Vec3 wi, double) const {
+    const double b = dot(position, wi), c = dot(position, position) - radius_ * radius_;
+    return std::max(0.0, -b + std::sqrt(std::max(0.0, b * b - c)));
+}
+
 double enclosedVolume(const Mesh& mesh) {
     double volume = 0;
     for (const auto& [a, b, c] : mesh.triangles)
@@ -105,8 +163,8 @@ void checkClosed(const Mesh& mesh) {
                          "triangles run counter-clockwise seen from outside");
 }
 
-MeshBody::MeshBody(Mesh mesh, const MeshBodyOptions& options)
-    : mesh_((checkClosed(mesh), std::move(mesh))), rays_(mesh_), cells_(mesh_, options.cell_area_mm2) {
+MeshBody::MeshBody(const Mesh& mesh, const MeshBodyOptions& options)
+    : mesh_((checkClosed(mesh), alongCurve(mesh))), rays_(mesh_), cells_(mesh_, options.cell_area_mm2) {
     const auto begin = std::chrono::steady_clock::now();
     volume_ = enclosedVolume(mesh_);
     double area = 0;
@@ -124,6 +182,11 @@ MeshBody::MeshBody(Mesh mesh, const MeshBodyOptions& options)
     if (!(options.shortest_mfp > 0 && longest <= kLargestMfp * options.shortest_mfp))
         throw inputError(fmt::format("the mesh is {:.3g} mean free paths long", longest / options.shortest_mfp),
                          "up to 1e4: beyond, single precision does not resolve them");
+    for (std::size_t bucket = 0; bucket <= area_to_.size(); ++bucket) {
+        const double target = area * static_cast<double>(bucket) / static_cast<double>(area_to_.size());
+        const auto found = std::ranges::upper_bound(area_to_, target * (1 - 1e-12));
+        first_.push_back(std::min(found - area_to_.begin(), std::ssize(area_to_) - 1));
+    }
     // Coordinates are rounded to 2^-25 of the largest; three of them, and the rounding of barycentric coordinates.
     nudge_ = static_cast<double>(rays_.extent()) * 0x1p-22;
     const double cell = std::clamp(kCellMfp * options.shortest_mfp, longest / kMostAlong, longest / kFewestAlong);
@@ -134,8 +197,10 @@ MeshBody::MeshBody(Mesh mesh, const MeshBodyOptions& options)
 
 SurfacePoint MeshBody::pointAt(double u, double v, double w) const {
     const double target = u * area();
-    const auto found = std::ranges::upper_bound(area_to_, target);
-    const auto t = std::min(static_cast<std::size_t>(found - area_to_.begin()), area_to_.size() - 1);
+    const auto bucket =
+        std::min(static_cast<std::size_t>(u * static_cast<double>(first_.size() - 1)), first_.size() - 2);
+    const auto begin = area_to_.begin() + first_[bucket], end = area_to_.begin() + first_[bucket + 1];
+    const auto t = static_cast<std::size_t>(std::upper_bound(begin, end, target) - area_to_.begin());
     const auto& [a, b, c] = mesh_.triangles[t];
     const Vec3 p = toDouble(mesh_.positions[a]);
     const double root = std::sqrt(v), along = root * w;
@@ -148,6 +213,24 @@ Vec3f MeshBody::below(const SurfacePoint& point) const { return toFloat(point.po
 bool MeshBody::occluded(const SurfacePoint& point, Vec3 wi, double distance) const {
     const float reach = static_cast<float>(distance);
     return rays_.occluded({toFloat(point.position + nudge_ * point.normal), toFloat(wi), 0, reach});
+}
+
+std::optional<SurfacePoint> MeshBody::seen(Vec3 origin, Vec3 direction) const {
+    const auto hit = rays_.intersect({toFloat(origin), toFloat(direction)});
+    if (!hit) return {};
+    const auto& [a, b, c] = mesh_.triangles[hit->triangle];
+    const Vec3 p = toDouble(mesh_.positions[a]);
+    return SurfacePoint{p + static_cast<double>(hit->u) * (toDouble(mesh_.positions[b]) - p) +
+                            static_cast<double>(hit->v) * (toDouble(mesh_.positions[c]) - p),
+                        toDouble(hit->normal)};
+}
+
+std::optional<double> MeshBody::wayOut(Vec3 position, Vec3 wi, double distance) const {
+    const auto hit = rays_.intersect({toFloat(position), toFloat(wi)});
+    if (!hit) return 0.0;  // on the surface, by rounding
+    const double out = static_cast<double>(hit->t);
+    if (occluded({position + out * wi, toDouble(hit->normal)}, wi, distance - out)) return {};
+    return out;
 }
 
 // A flight that starts on the surface may have been rounded to its far side and cross it inwards first: that crossing
@@ -168,7 +251,7 @@ std::optional<RayHit> MeshBody::leaving(const Ray& flight, const RayHit& entered
 }
 
 void MeshBody::cross(std::span<const Ray> flights, std::span<Crossing> crossings) const {
-    constexpr std::size_t most = 64;
+    constexpr std::size_t most = 256;
     assert(flights.size() == crossings.size() && flights.size() <= most);
     RayHit hits[most];
     rays_.intersect(flights, {hits, flights.size()}, false);

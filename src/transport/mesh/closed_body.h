@@ -50,6 +50,11 @@ public:
     Vec3f below(const SurfacePoint& point) const { return toFloat(point.position); }
     /// Whether the body hides what lies `distance` away in direction wi (unit, above the surface).
     bool occluded(const SurfacePoint&, Vec3, double) const { return false; }
+    /// Where a ray from outside meets the surface, its direction unit.
+    std::optional<SurfacePoint> seen(Vec3 origin, Vec3 direction) const;
+    /// How far it is to the surface from inside towards wi (unit), mm; nothing when light from there, `distance` away,
+    /// is hidden by another part of the body.
+    std::optional<double> wayOut(Vec3 position, Vec3 wi, double distance) const;
     /// Flights that may have left: where from t 0 to t_max they cross from inside.
     void cross(std::span<const Ray> flights, std::span<Crossing> crossings) const;
 
@@ -70,10 +75,11 @@ class MeshBody {
 public:
     /// Throws an input Error for a mesh that encloses nothing: open, inconsistently oriented, inside out, without
     /// volume; and for one so large against the mean free path that single precision would not do.
-    MeshBody(Mesh mesh, const MeshBodyOptions& options);
+    MeshBody(const Mesh& mesh, const MeshBodyOptions& options);
 
     double area() const { return area_to_.back(); }
     double volume() const { return volume_; }
+    /// The mesh, its triangles and vertices in an order of their own, and nothing beside them.
     const Mesh& mesh() const { return mesh_; }
     const RayScene& rays() const { return rays_; }
     const SurfaceCells& cells() const { return cells_; }
@@ -85,6 +91,8 @@ public:
     SurfacePoint pointAt(double u, double v, double w) const;
     Vec3f below(const SurfacePoint& point) const;
     bool occluded(const SurfacePoint& point, Vec3 wi, double distance) const;
+    std::optional<SurfacePoint> seen(Vec3 origin, Vec3 direction) const;
+    std::optional<double> wayOut(Vec3 position, Vec3 wi, double distance) const;
     void cross(std::span<const Ray> flights, std::span<Crossing> crossings) const;
 
 private:
@@ -94,7 +102,8 @@ private:
     RayScene rays_;
     SurfaceCells cells_;
     SafeRegions regions_;
-    std::vector<double> area_to_;  ///< of the triangles up to each
+    std::vector<double> area_to_;        ///< of the triangles up to each
+    std::vector<std::ptrdiff_t> first_;  ///< of the triangles that end beyond each of as many equal parts of the area
     double volume_ = 0;
     double nudge_ = 0;  ///< mm: how far a point on the surface may be rounded off it
     double build_seconds_ = 0;

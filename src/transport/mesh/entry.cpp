@@ -85,6 +85,12 @@ bool EntrySource<Body>::next(Entry& entry) {
     return false;
 }
 
+template <class Body>
+void EntrySource<Body>::leave(std::uint32_t, float weight, Vec3, const Crossing& crossing,
+                              std::vector<CellExit>& exits) {
+    exits.push_back({crossing.cell, weight});
+}
+
 template class EntrySource<Ball>;
 template class EntrySource<MeshBody>;
 

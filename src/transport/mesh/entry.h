@@ -26,9 +26,30 @@ using Illumination = std::variant<UniformLight, PencilLight, const LightSampler*
 
 /// A walk about to start.
 struct Entry {
-    Vec3f position;    ///< mm, just inside
-    Vec3f direction;   ///< refracted, unit
-    float weight = 0;  ///< in multiples of EntryOptions::whole
+    Vec3f position;         ///< mm, just inside
+    Vec3f direction;        ///< refracted, unit
+    float weight = 0;       ///< of light: in multiples of EntryOptions::whole
+    std::uint32_t tag = 0;  ///< for the source's own use, when the walk leaves
+};
+
+/// A value for a cell of the surface, or for a pixel.
+struct CellExit {
+    std::uint32_t cell = 0;
+    float weight = 0;
+};
+
+struct Crossing;
+
+/// What the walks of a chunk start from, and what it means when they leave.
+class WalkSource {
+public:
+    virtual ~WalkSource() = default;
+
+    /// The next walk. False when there are no more.
+    virtual bool next(Entry& entry) = 0;
+    /// A walk of this tag and weight crosses the surface, coming from inside in this unit direction.
+    virtual void leave(std::uint32_t tag, float weight, Vec3 direction, const Crossing& crossing,
+                       std::vector<CellExit>& exits) = 0;
 };
 
 /// Flux that candidates carried, in multiples of EntryOptions::whole.
@@ -48,13 +69,15 @@ struct EntryOptions {
 /// probability of its direction, mm^2) survives with probability w / whole, and then weighs 1: walks cost the same
 /// whatever they weigh. What the surface mirrors is drawn like that too.
 template <class Body>
-class EntrySource {
+class EntrySource : public WalkSource {
 public:
     EntrySource(const Body& body, const Illumination& illumination, const EntryOptions& options,
                 std::uint64_t candidates, SplitMix64 random);
 
-    /// The next walk. False when all candidates have been tried.
-    bool next(Entry& entry);
+    bool next(Entry& entry) override;
+    /// Counts the weight for the cell.
+    void leave(std::uint32_t tag, float weight, Vec3 direction, const Crossing& crossing,
+               std::vector<CellExit>& exits) override;
 
     const EntryTotals& totals() const { return totals_; }
     std::uint64_t tried() const { return tried_; }

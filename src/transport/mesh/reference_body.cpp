@@ -152,6 +152,8 @@ BodyResult walkAny(const Body& body, const Medium& medium, int channel, const Il
             SplitMix64 seeds = streamOf(options.seed, 4 * chunk + static_cast<std::uint64_t>(channel));
             EntrySource<Body> source(body, light, entry, tried, SplitMix64(seeds.next()));
             tally = walkBodyChunk(body, walk, source, SplitMix64(seeds.next()));
+            tally.entry = source.totals();
+            tally.candidates = source.tried();
             return tally.collisions;
         },
         [&](const BodyChunk& chunk, std::uint64_t, std::vector<BatchRatios>& to) {

@@ -14,7 +14,6 @@ namespace searchlight {
 namespace {
 
 constexpr double kReachCells = 2.5;  // exact distances up to here; the transform loses a cell's diagonal beyond
-constexpr int kBounds = 256;         // regions without a plane, by the value of their bound
 
 // Balls to choose from, by how far they let flights go in mean free paths: the wider, the more a curved surface pushes
 // the plane back.
@@ -123,37 +122,65 @@ double uncleared(double reach_mfp, double depth_mfp) {
     return std::exp(-reach_mfp) + 0.5 * std::exp(-1.5 * std::max(depth_mfp, 0.0));
 }
 
-// The best of several balls around a cell's centre. `bound`: reach of a region without a plane.
-SafeRegion chooseRegion(const Bins& bins, Vec3 centre, double half_diagonal, double cell, double bound, double mfp,
+// Rounded down, and less what rounding does to the distance of a point.
+std::uint16_t stepsOf(double radius, double cell) {
+    return static_cast<std::uint16_t>(
+        std::clamp(SafeRegion::kSteps * (radius / cell - kMargin), 0.0, SafeRegion::kSteps * SafeRegion::kLargest));
+}
+
+// A unit normal as the walks know it.
+Vec3 quantized(Vec3 n) {
+    return {std::round(SafeRegion::kNormal * n.x), std::round(SafeRegion::kNormal * n.y),
+            std::round(SafeRegion::kNormal * n.z)};
+}
+
+std::uint32_t packed(Vec3 n) {
+    const auto bits = [](double x) { return static_cast<std::uint32_t>(static_cast<std::int32_t>(x)) & 0x3FF; };
+    return bits(n.x) << 22 | bits(n.y) << 12 | bits(n.z) << 2;
+}
+
+Vec3 unpacked(std::uint32_t normal) {
+    const auto number = [](std::uint32_t bits) { return static_cast<double>(static_cast<std::int32_t>(bits) >> 22); };
+    return {number(normal), number(normal << 10), number(normal << 20)};
+}
+
+// The best of several balls around a cell's middle. `bound`: the distance from any point of the cell to the surface.
+SafeRegion chooseRegion(const Bins& bins, Vec3 middle, double half_diagonal, double cell, double bound, double mfp,
                         std::vector<Bins::Near>& near) {
     SafeRegion best;
-    best.reach_mm = static_cast<float>(bound);
+    best.radius = bound > 0 ? stepsOf(bound + half_diagonal, cell) : std::uint16_t{0};
     double least = std::exp(-bound / mfp);
-    bins.near(centre, half_diagonal + kReaches.back() * mfp, near);
+    bins.near(middle, half_diagonal + kReaches.back() * mfp, near);
     for (const double reach : kReaches) {
-        const double radius = half_diagonal + reach * mfp;
+        const double radius = std::min(half_diagonal + reach * mfp, SafeRegion::kLargest * cell);
         Vec3 sum;
         for (const auto& [triangle, distance] : near)
             if (distance < radius) sum = sum + bins.normal(triangle);
         if (!(length(sum) > 0)) continue;
-        const Vec3f normal = toFloat(normalize(sum));
-        const Vec3 n = toDouble(normal);
-        double offset = std::numeric_limits<double>::infinity();
+        const Vec3 n = quantized(normalize(sum));
+        double lowest = std::numeric_limits<double>::infinity();
         for (const auto& [triangle, distance] : near)
-            if (distance < radius) offset = std::min(offset, bins.lowest(triangle, n));
-        offset -= kMargin * cell;
+            if (distance < radius) lowest = std::min(lowest, bins.lowest(triangle, n));
+        const double offset = (lowest - dot(n, middle)) / SafeRegion::kNormal - kMargin * cell;
         // A cell that the plane leaves out altogether gains nothing; one that it cuts counts by its lower part.
-        const double depth = offset - dot(n, centre);
-        if (depth < -half_diagonal) continue;
-        const double missed = uncleared(reach, std::max(depth, 0.5 * (depth + half_diagonal)) / mfp);
+        if (offset < -half_diagonal) continue;
+        const double missed = uncleared(reach, std::max(offset, 0.5 * (offset + half_diagonal)) / mfp);
         if (missed >= least) continue;
         least = missed;
-        best = {normal.x, normal.y, normal.z, static_cast<float>(offset), static_cast<float>(reach * mfp * (1 - 1e-6))};
+        best.normal = packed(n);
+        best.radius = stepsOf(radius, cell);
+        best.offset =
+            static_cast<std::int16_t>(std::clamp(std::floor(SafeRegion::kSteps * offset / cell), -32'000.0, 32'000.0));
     }
     return best;
 }
 
 }  // namespace
+
+std::size_t SafeRegions::indexOf(std::int32_t x, std::int32_t y, std::int32_t z) const {
+    const auto brick = (static_cast<std::size_t>(z >> 3) * (ny >> 3) + (y >> 3)) * (nx >> 3) + (x >> 3);
+    return brick << 9 | static_cast<std::size_t>((z & 7) << 6 | (y & 7) << 3 | (x & 7));
+}
 
 bool SafeRegions::safe(Vec3f from, Vec3f to) const {
     const auto cellOf = [this](float position, float low) {
@@ -161,43 +188,40 @@ bool SafeRegions::safe(Vec3f from, Vec3f to) const {
     };
     const std::int32_t x = cellOf(from.x, origin.x), y = cellOf(from.y, origin.y), z = cellOf(from.z, origin.z);
     if (x < 0 || y < 0 || z < 0 || x >= nx || y >= ny || z >= nz) return false;
-    const auto number = regions_of[(static_cast<std::size_t>(z) * ny + y) * nx + x];
-    const SafeRegion& region = regions[static_cast<std::size_t>(number)];
-    const auto below = [&](Vec3f p) { return region.x * p.x + region.y * p.y + region.z * p.z < region.offset; };
-    return length(toDouble(to) - toDouble(from)) < static_cast<double>(region.reach_mm) && below(from) && below(to);
+    if (regions.empty()) return false;
+    const SafeRegion& region = regions[indexOf(x, y, z)];
+    const double step = static_cast<double>(cell_mm) / SafeRegion::kSteps;
+    const Vec3 middle = toDouble(origin) + static_cast<double>(cell_mm) * Vec3{x + 0.5, y + 0.5, z + 0.5};
+    const auto holds = [&](Vec3f p) {
+        const Vec3 away = toDouble(p) - middle;
+        return length(away) < step * region.radius &&
+               dot(unpacked(region.normal), away) < SafeRegion::kNormal * step * region.offset;
+    };
+    return holds(from) && holds(to);
 }
 
 SafeRegions buildSafeRegions(const Mesh& mesh, double cell_mm, double mfp_mm, int threads) {
     const DistanceBounds bounds = buildDistanceBounds(mesh, cell_mm, kReachCells * cell_mm, threads);
-    SafeRegions safe{bounds.origin, bounds.cell_mm, bounds.nx, bounds.ny, bounds.nz};
+    const auto bricks = [](std::int32_t n) { return (n + 7) / 8 * 8; };
+    SafeRegions safe{bounds.origin, bounds.cell_mm, bricks(bounds.nx), bricks(bounds.ny), bricks(bounds.nz), {}};
+    safe.regions.resize(static_cast<std::size_t>(safe.nx) * safe.ny * safe.nz);
     const double cell = static_cast<double>(bounds.cell_mm), half_diagonal = 0.5 * std::sqrt(3.0) * cell;
-    safe.regions_of.assign(bounds.values.begin(), bounds.values.end());
-    for (int value = 0; value < kBounds; ++value) {
-        SafeRegion region;
-        region.reach_mm = bounds.unit_mm * static_cast<float>(value);
-        safe.regions.push_back(region);
-    }
-    // Cells in which a plane may beat the bound.
-    std::vector<std::size_t> cells;
-    for (std::size_t i = 0; i < safe.regions_of.size(); ++i)
-        if (!bounds.outside[i] &&
-            static_cast<double>(safe.regions[bounds.values[i]].reach_mm) < kReaches.back() * mfp_mm)
-            cells.push_back(i);
-    safe.regions.resize(kBounds + cells.size());
     const Bins bins(mesh, std::max(2 * cell, kReaches.back() * mfp_mm));
     const Vec3 origin = toDouble(bounds.origin);
-    constexpr std::size_t task = 256;
-    parallelFor((cells.size() + task - 1) / task, threads, [&](std::size_t first) {
+    parallelFor(static_cast<std::size_t>(bounds.ny) * bounds.nz, threads, [&](std::size_t row) {
+        const auto y = static_cast<std::int32_t>(row % static_cast<std::size_t>(bounds.ny));
+        const auto z = static_cast<std::int32_t>(row / static_cast<std::size_t>(bounds.ny));
         std::vector<Bins::Near> near;
-        for (std::size_t i = first * task; i < std::min((first + 1) * task, cells.size()); ++i) {
-            const std::size_t at = cells[i], row = static_cast<std::size_t>(bounds.nx);
-            const std::size_t layer = row * static_cast<std::size_t>(bounds.ny);
-            const Vec3 centre =
-                origin + cell * Vec3{static_cast<double>(at % row) + 0.5, static_cast<double>(at % layer / row) + 0.5,
-                                     static_cast<double>(at / layer) + 0.5};
-            const double bound = static_cast<double>(safe.regions[bounds.values[at]].reach_mm);
-            safe.regions[kBounds + i] = chooseRegion(bins, centre, half_diagonal, cell, bound, mfp_mm, near);
-            safe.regions_of[at] = static_cast<std::int32_t>(kBounds + i);
+        for (std::int32_t x = 0; x < bounds.nx; ++x) {
+            const std::size_t at = row * static_cast<std::size_t>(bounds.nx) + static_cast<std::size_t>(x);
+            if (bounds.outside[at]) continue;
+            const double bound = static_cast<double>(bounds.unit_mm) * bounds.values[at];
+            SafeRegion& region = safe.regions[safe.indexOf(x, y, z)];
+            if (bound >= kReaches.back() * mfp_mm)  // no plane beats the bound
+                region.radius = stepsOf(bound + half_diagonal, cell);
+            else
+                region = chooseRegion(bins, origin + cell * Vec3{x + 0.5, y + 0.5, z + 0.5}, half_diagonal, cell, bound,
+                                      mfp_mm, near);
         }
     });
     return safe;
@@ -206,10 +230,7 @@ SafeRegions buildSafeRegions(const Mesh& mesh, double cell_mm, double mfp_mm, in
 SafeRegions unknownRegion(Vec3 low, Vec3 high) {
     const Vec3 extent = high - low;
     const double longest = std::max({extent.x, extent.y, extent.z});
-    SafeRegions safe{toFloat(low - 0.004 * longest * Vec3{1, 1, 1}), static_cast<float>(1.01 * longest), 1, 1, 1};
-    safe.regions_of = {0};
-    safe.regions.resize(1);
-    return safe;
+    return {toFloat(low - 0.004 * longest * Vec3{1, 1, 1}), static_cast<float>(1.01 * longest), 1, 1, 1, {}};
 }
 
 }  // namespace searchlight

@@ -11,20 +11,25 @@
 
 namespace searchlight {
 
+/// A ball about the middle of a cell, cut by a plane. Eight bytes, since walks read them all over the mesh: the normal
+/// need not be unit, and the numbers are rounded so that the region shrinks.
 struct SafeRegion {
-    float x = 0, y = 0, z = 0;  ///< the plane's normal; 0: there is none
-    float offset = 1;           ///< the plane is where normal . position has this value, mm
-    float reach_mm = 0;         ///< of flights from anywhere in the cell
-    float unused[3] = {};       ///< a region does not straddle cache lines
+    static constexpr double kNormal = 511;  ///< length of a normal, about
+    static constexpr double kSteps = 1024;  ///< of lengths, to a cell
+    static constexpr double kLargest = 30;  ///< radius, in cells
+
+    std::uint32_t normal = 0;  ///< x, y, z of 10 bits, from the highest; 0: there is no plane
+    std::uint16_t radius = 0;  ///< in steps; 0: nothing is known
+    std::int16_t offset = 1;   ///< normal . (p - middle) is below kNormal times so many steps
 };
 
 struct SafeRegions {
     Vec3f origin;  ///< lowest corner of the grid, mm
     float cell_mm = 0;
-    std::int32_t nx = 0, ny = 0, nz = 0;
-    std::vector<std::int32_t> regions_of;  ///< per cell, x runs fastest
-    std::vector<SafeRegion> regions;       ///< the first is of no use: cells outside
+    std::int32_t nx = 0, ny = 0, nz = 0;  ///< cells; a multiple of 8
+    std::vector<SafeRegion> regions;      ///< in bricks of 8 x 8 x 8 cells, which lie in one page; x runs fastest
 
+    std::size_t indexOf(std::int32_t x, std::int32_t y, std::int32_t z) const;
     /// Whether a flight between two points surely stays inside the mesh. False outside of the grid.
     bool safe(Vec3f from, Vec3f to) const;
 };
