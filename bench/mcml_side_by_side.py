@@ -19,7 +19,7 @@ import tempfile
 
 RADII = [0.5, 1, 2, 5]
 BINS = 53
-RUNS = 16  # of MCML: their scatter is its variance
+RUNS = 16  # of MCML: their scatter is its variance. Its last bin holds all beyond, so it has one more than are read
 
 # name, sigma_a, sigma_s (1/mm), g, eta; MCML's photons per second, roughly, to share out the time
 CASES = [
@@ -44,7 +44,7 @@ def mcml(program, case, seconds, folder):
     photons = max(1000, int(rate * seconds / RUNS))
     lines = ["1.0", str(RUNS)]
     for i in range(RUNS):
-        lines += [f"run{i}.mco A", str(photons), f"1e8 {step_cm!r}", f"1 {BINS} 1", "1", "1.0",
+        lines += [f"run{i}.mco A", str(photons), f"1e8 {step_cm!r}", f"1 {BINS + 1} 1", "1", "1.0",
                   f"{eta} {10 * sigma_a!r} {10 * sigma_s!r} {g} 1e8", "1.0"]
     with open(os.path.join(folder, "bench.mci"), "w", encoding="ascii") as file:
         file.write("\n".join(lines) + "\n")

@@ -2,23 +2,21 @@
 //
 // Expected escape: each collision tallies the flux that leaves without another collision, at points drawn on the
 // surface. The way out is drawn inside the escape cone, uniform in its cosine (uniform in radius would have a variance
-// without bound), and comes with its opposite azimuth. What crosses the surface later was counted already: only the
-// reflected part goes on.
+// without bound), and comes with its opposite azimuth; 16 lanes share it (ways_out-inl.h). What crosses the surface
+// later was counted already: only the reflected part goes on.
 //
 // Importance: weight times importance below 0.3 meets a roulette, above 2 the walk is split (importance.h).
 //
 // Order 1 is exact at normal incidence.
 //
-// Everything that is random depends on the lane alone, and sums run in lane order: the result does not depend on the
-// width of the hardware's vectors.
+// Everything that is random depends on the lane and its 16 alone, and sums run in lane order: the result does not
+// depend on the width of the hardware's vectors.
 #include "transport/half_space/half_space_best.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <memory>
-
-#include "transport/walk/fresnel.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "transport/half_space/half_space_best.cpp"
@@ -27,21 +25,22 @@
 #define HWY_BROKEN_EMU128 0
 #include <hwy/foreach_target.h>
 
+#include "transport/half_space/ways_out-inl.h"
 #include "transport/walk/lane_walk-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace searchlight {
 namespace HWY_NAMESPACE {
 
-constexpr std::size_t kDepositCapacity = 1024;
-constexpr std::size_t kCopies = 4;  // of the histogram, so that one addition need not wait for the last
+// The histogram is kept once for each lane of the widest vectors and each deposit of a collision: no addition meets
+// another one on its way. Those of four packs are shared.
+constexpr std::size_t kCopies = 16;
+constexpr int kFlushSteps = 256;  // floats hold no more than so many additions a pack
 // Without absorption a walk has no mean length: beyond so many collisions its importance falls as their inverse.
 constexpr std::int32_t kLongWalk = 1 << 13;
 constexpr float kRoulette = 0.3f, kSplit = 2.0f;
 constexpr float kMostParts = 16;
 static_assert(kSplit >= 2, "a split makes at least two parts");
-// Ways out that are less likely than this are tallied so often only, with this probability for weight.
-constexpr float kFaintest = 0.02f;
 
 struct alignas(64) BestLanes {
     float x[kLanes], y[kLanes], z[kLanes];  // of the collision to come, z grows into the medium
@@ -65,13 +64,6 @@ struct BestPack {
 struct Waiting {
     float x, y, z, u, v, w, weight;
     std::int32_t order, parts;
-};
-
-struct Deposits {
-    // Whole vectors are stored at the end.
-    std::int32_t slot[kDepositCapacity + kLanes + 16];
-    float weight[kDepositCapacity + kLanes + 16];
-    std::size_t count = 0;
 };
 
 // exp(-x) for x in [0, 87], relative error 2e-7; constant beyond.
@@ -107,9 +99,11 @@ public:
         : plan_(plan),
           waiting_(walks),
           slots_(plan.bins.next_edge.size()),
-          histogram_(2 * slots_ * kCopies),
+          stride_((plan.single ? 1 : 2) * slots_ | 1),
+          histogram_(kWays * kCopies * stride_),
+          sums_(2 * slots_),
           albedo_(static_cast<float>(1 - plan.walk.absorbed)),
-          critical_(static_cast<float>(criticalCosine(plan.walk.eta))) {
+          ways_(plan.walk, seeds) {
         std::memset(&lanes_, 0, sizeof lanes_);
         seed(lanes_, seeds);
     }
@@ -120,18 +114,23 @@ public:
         while (const int alive = refill()) {
             collisions += static_cast<std::uint64_t>(alive);
             free_ = split_ = 0;
+            if (kForesees && (way_ += kLanes / kCopies) == WaysOut::kCount) {
+                ways_.renew();
+                way_ = 0;
+            }
             for (std::size_t at = 0; at < kLanes; at += hn::Lanes(Float())) advance(at);
-            if (deposits_[0].count > kDepositCapacity || deposits_[1].count > kDepositCapacity) flushDeposits();
             if (split_ != 0) splitWalks();
-            if (++steps % 64 == 0) flushMoments();
+            if (++steps % kFlushSteps == 0) flush();
         }
-        flushDeposits();
-        flushMoments();
+        flush();
         finish(tally);
         return collisions;
     }
 
 private:
+    // Ways out of a collision: turned by half a turn, or by quarters where that costs no phase function.
+    static constexpr std::size_t kWays = !kForesees ? 1 : 2;
+
     static HWY_INLINE FloatV set(double value) { return hn::Set(Float(), static_cast<float>(value)); }
 
     HWY_INLINE BestPack load(std::size_t at) const {
@@ -175,7 +174,7 @@ private:
         const FloatV luck = fineUniform(pack.random.next());
         const FloatV s = signedUniform(pack.random.next());
         const Azimuth phi = azimuth(pack.random.next());
-        if constexpr (kForesees) foresee(pack, at, phi, luck);
+        if constexpr (kForesees) foresee(pack, at);
         if constexpr (kIsotropic)
             pack.direction = isotropicDirection(s, phi);
         else
@@ -194,8 +193,8 @@ private:
         if constexpr (kFresnel) reflected = hn::Mul(pack.weight, reflectance(hn::Neg(onward)));
         if constexpr (!kForesees) {
             const FloatV back = hn::Div(z, hn::Neg(onward));  // from where the surface was crossed
-            deposit<0>(pack, at, hn::Mul(back, pack.direction.u), hn::Mul(back, pack.direction.v),
-                       hn::IfThenElseZero(crosses, hn::Sub(pack.weight, reflected)), one, luck);
+            deposit<0>(pack, at, hn::MulAdd(back, pack.direction.u, pack.x), hn::MulAdd(back, pack.direction.v, pack.y),
+                       hn::IfThenElseZero(crosses, hn::Sub(pack.weight, reflected)));
         }
         pack.weight = hn::IfThenElse(crosses, reflected, pack.weight);
         pack.order = hn::Add(pack.order, hn::Set(di, 1));
@@ -206,7 +205,6 @@ private:
         const FloatV importance = importanceOf(pack);
         const FloatV value = hn::Mul(pack.weight, importance);
         const FloatM low = hn::Lt(value, hn::Set(d, kRoulette));
-        // The number that thinned the deposits serves again: each decision is fair by itself.
         const FloatM lives = hn::Lt(luck, value);
         pack.weight = hn::IfThenElse(low, hn::IfThenElseZero(lives, hn::Div(one, importance)), pack.weight);
         store(pack, at);
@@ -232,29 +230,24 @@ private:
 
     HWY_INLINE FloatV reflectance(FloatV cosine) const { return fresnel(cosine, set(plan_.walk.eta)).reflectance; }
 
-    // Tallies what leaves without another collision, along two ways out with opposite azimuths.
-    HWY_INLINE void foresee(BestPack& pack, std::size_t at, const Azimuth& phi, FloatV luck) {
+    // Tallies what leaves without another collision, along ways out that four packs of lanes share.
+    HWY_INLINE void foresee(const BestPack& pack, std::size_t at) {
         const Float d;
-        const FloatV one = hn::Set(d, 1.0f), range = hn::Set(d, 1 - critical_);
-        const FloatV mu = hn::MulAdd(range, fineUniform(pack.random.next()), hn::Set(d, critical_));
-        const FloatV inverse = hn::Div(one, mu);
-        const FloatV sine = hn::Sqrt(hn::Max(hn::NegMulAdd(mu, mu, one), hn::Zero(d)));
-        const FloatV length = hn::Mul(pack.z, inverse);
-        FloatV escape = expNegative(length);
-        if constexpr (kFresnel) escape = hn::Mul(escape, hn::Sub(one, reflectance(mu)));
-        const FloatV a = hn::Mul(sine, phi.cos), b = hn::Mul(sine, phi.sin);
-        const FloatV dx = hn::Mul(length, a), dy = hn::Mul(length, b);
-        // The cone's share of the sphere, half of it for each azimuth.
-        const FloatV share = hn::Mul(pack.weight, hn::Mul(hn::Set(d, 0.25f), range));
-        FloatV there = share, back = share;
-        if constexpr (!kIsotropic) {
-            const FloatV across = hn::MulAdd(a, pack.direction.u, hn::Mul(b, pack.direction.v));
-            const FloatV up = hn::Mul(mu, pack.direction.w);
-            there = hn::Mul(share, phase(hn::Sub(across, up)));
-            back = hn::Mul(share, phase(hn::Neg(hn::Add(across, up))));
+        const std::size_t way = way_ + at / kCopies;
+        const FloatV path = hn::Mul(pack.z, hn::Set(d, ways_.path[way]));
+        const FloatV leaves = hn::Mul(hn::Mul(pack.weight, hn::Set(d, ways_.share[way] / kWays)), expNegative(path));
+        const FloatV dx = hn::Mul(pack.z, hn::Set(d, ways_.x[way])), dy = hn::Mul(pack.z, hn::Set(d, ways_.y[way]));
+        if constexpr (kIsotropic) {
+            deposit<0>(pack, at, hn::Add(pack.x, dx), hn::Add(pack.y, dy), leaves);
+            deposit<1>(pack, at, hn::Sub(pack.x, dx), hn::Sub(pack.y, dy), leaves);
+        } else {
+            const FloatV across = hn::MulAdd(hn::Set(d, ways_.u[way]), pack.direction.u,
+                                             hn::Mul(hn::Set(d, ways_.v[way]), pack.direction.v));
+            const FloatV up = hn::Mul(hn::Set(d, ways_.w[way]), pack.direction.w);
+            deposit<0>(pack, at, hn::Add(pack.x, dx), hn::Add(pack.y, dy), hn::Mul(leaves, phase(hn::Sub(across, up))));
+            deposit<1>(pack, at, hn::Sub(pack.x, dx), hn::Sub(pack.y, dy),
+                       hn::Mul(leaves, phase(hn::Neg(hn::Add(across, up)))));
         }
-        deposit<0>(pack, at, dx, dy, there, escape, luck);
-        deposit<1>(pack, at, hn::Neg(dx), hn::Neg(dy), back, escape, luck);
     }
 
     // [HenyeyGreenstein1941], relative to isotropic scattering.
@@ -266,34 +259,33 @@ private:
         return hn::Div(hn::Set(d, static_cast<float>((1 - g) * (1 + g))), hn::Mul(q, hn::Sqrt(q)));
     }
 
-    // `share` leaves with the probability `escape` at (dx, dy) from the walk.
-    template <int kBuffer>
-    HWY_INLINE void deposit(const BestPack& pack, std::size_t at, FloatV dx, FloatV dy, FloatV share, FloatV escape,
-                            FloatV luck) {
+    // `weight` leaves at (x, y); kWay is one of the collision's.
+    template <std::size_t kWay>
+    HWY_INLINE void deposit(const BestPack& pack, std::size_t at, FloatV x, FloatV y, FloatV weight) {
         const Float d;
         const Int di;
-        const FloatV faintest = hn::Set(d, kFaintest);
-        const FloatV x = hn::Add(pack.x, dx), y = hn::Add(pack.y, dy);
         const FloatV r2 = hn::MulAdd(x, x, hn::Mul(y, y));
         const hn::Mask<Int> first = hn::Eq(pack.order, hn::Set(di, 1));
-        FloatM wanted = hn::And(hn::Gt(share, hn::Zero(d)), hn::Lt(hn::Mul(luck, faintest), escape));
-        if (plan_.single) wanted = hn::AndNot(hn::RebindMask(d, first), wanted);
-        const FloatV weight = hn::IfThenElseZero(wanted, hn::Mul(share, hn::Max(escape, faintest)));
-
+        const FloatM is_first = hn::RebindMask(d, first);
+        IntV slot = slotOf(r2);
+        if (plan_.single)
+            weight = hn::IfThenZeroElse(is_first, weight);
+        else
+            slot = hn::Add(slot, hn::IfThenZeroElse(first, hn::Set(di, static_cast<int>(slots_))));
         const FloatV wx = hn::Mul(weight, x), wr2 = hn::Mul(weight, r2);
         if (!plan_.single) {
-            const FloatM is_first = hn::RebindMask(d, first);
             addMoment(0, at, hn::IfThenElseZero(is_first, wx));
             addMoment(1, at, hn::IfThenElseZero(is_first, wr2));
         }
-        addMoment(2, at, wx);
-        addMoment(3, at, wr2);
-
-        const IntV slot = hn::Add(slotOf(r2), hn::IfThenZeroElse(first, hn::Set(di, static_cast<int>(slots_))));
-        Deposits& out = deposits_[kBuffer];
-        storeSet(slot, hn::RebindMask(di, wanted), di, out.slot + out.count);
-        storeSet(weight, wanted, d, out.weight + out.count);
-        out.count += hn::CountTrue(d, wanted);
+        if (!plan_.guided_moments) {
+            addMoment(2, at, wx);
+            addMoment(3, at, wr2);
+        }
+        const IntV stride = hn::Set(di, static_cast<int>(stride_));
+        const IntV copy = hn::Iota(di, static_cast<int>(at % kCopies));
+        float* histogram = histogram_.data() + kWay * kCopies * stride_;
+        const IntV index = hn::Add(slot, hn::Mul(copy, stride));
+        hn::ScatterIndex(hn::Add(hn::GatherIndex(d, histogram, index), weight), d, histogram, index);
     }
 
     HWY_INLINE void addMoment(std::size_t which, std::size_t at, FloatV value) {
@@ -335,16 +327,16 @@ private:
         return hn::IfThenElse(hn::RebindMask(d, is_long), hn::Mul(importance, fade), importance);
     }
 
-    HWY_NOINLINE void flushDeposits() {
-        for (Deposits& deposits : deposits_) {
-            for (std::size_t i = 0; i < deposits.count; ++i)
-                histogram_[(i % kCopies) * 2 * slots_ + static_cast<std::size_t>(deposits.slot[i])] +=
-                    static_cast<double>(deposits.weight[i]);
-            deposits.count = 0;
+    HWY_NOINLINE void flush() {
+        for (std::size_t copy = 0; copy < kWays * kCopies; ++copy) {
+            float* from = histogram_.data() + copy * stride_;
+            const std::size_t count = plan_.single ? slots_ : 2 * slots_;
+            double* to = sums_.data() + (plan_.single ? slots_ : 0);
+            for (std::size_t i = 0; i < count; ++i) {
+                to[i] += static_cast<double>(from[i]);
+                from[i] = 0;
+            }
         }
-    }
-
-    HWY_NOINLINE void flushMoments() {
         for (std::size_t which = 0; which < 4; ++which)
             for (float& moment : lanes_.moments[which]) {
                 moments_[which] += static_cast<double>(moment);
@@ -412,9 +404,7 @@ private:
         for (std::size_t order = 0; order < 2; ++order) {
             ExitTally::Sums& sums = tally.sums(order == 0 ? ExitTally::single : ExitTally::multiple);
             for (std::size_t slot = 0; slot < slots_; ++slot) {
-                double weight = 0;
-                for (std::size_t copy = 0; copy < kCopies; ++copy)
-                    weight += histogram_[(2 * copy + order) * slots_ + slot];
+                const double weight = sums_[order * slots_ + slot];
                 sums.flux[1 + slot] += scale[order] * weight;
                 sums.flux[0] += scale[order] * weight;
             }
@@ -429,13 +419,16 @@ private:
     const BestPlan& plan_;
     std::uint64_t waiting_;  // walks not yet started
     std::size_t slots_;
-    std::vector<double> histogram_;  // kCopies of slots of order 1, slots of the others
-    float albedo_, critical_;
+    std::size_t stride_;
+    std::vector<float> histogram_;  // kWays x kCopies: slots of order 1, unless it is known, then those of the others
+    std::vector<double> sums_;      // slots of order 1, slots of the others
+    float albedo_;
+    WaysOut ways_;
+    std::size_t way_ = WaysOut::kCount - kLanes / kCopies;  // of the first lanes
     double moments_[4] = {};
     std::uint64_t free_ = ~std::uint64_t{0}, split_ = 0;  // one bit a lane
     std::vector<Waiting> bank_;
     BestLanes lanes_;
-    Deposits deposits_[2];
 };
 
 template <bool kFresnel, bool kIsotropic, bool kForesees>

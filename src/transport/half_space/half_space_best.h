@@ -42,6 +42,7 @@ struct BestPlan {
     TallyLayout layout;
     double guided_share = 0;                 ///< guided walks for each walk; they tally the total and its moments
     double guided_part = 0;                  ///< what counts of their bins; 1: there are no other walks
+    bool guided_moments = false;             ///< those of all orders do, alone
     bool counts_beyond = false;              ///< what they leave to the bins is beyond them
     std::optional<SingleScattering> single;  ///< at normal incidence; otherwise walks tally order 1, too
 };

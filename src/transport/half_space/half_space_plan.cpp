@@ -90,6 +90,7 @@ BestPlan::BestPlan(const HalfSpaceWalk& half_space, std::span<const double> edge
         flux.add(pilot.sums(ExitTally::multiple).flux, kPilotWalks);
     }
     constexpr std::uint64_t walks = kPilotChunks * kPilotWalks;
+    guided_moments = true;
     const GuidedSums led = walkGuidedChunk(guided, kPilotSeed, kPilotChunks, kPilotGuided);
     const double total = led.total / kPilotGuided;
     const double time = kStepTime * static_cast<double>(steps) / walks;

@@ -98,8 +98,11 @@ HWY_INLINE Refraction fresnel(FloatV c, FloatV eta) {
     const FloatV sine2 = hn::NegMulAdd(c, c, one);
     const FloatV t = hn::Sqrt(hn::Max(hn::NegMulAdd(hn::Mul(eta, eta), sine2, one), hn::Zero(d)));
     const FloatV eta_c = hn::Mul(eta, c), eta_t = hn::Mul(eta, t);
-    const FloatV s = hn::Div(hn::Sub(eta_c, t), hn::Add(eta_c, t));
-    const FloatV p = hn::Div(hn::Sub(c, eta_t), hn::Add(c, eta_t));
+    // Two quotients for one division.
+    const FloatV s_below = hn::Add(eta_c, t), p_below = hn::Add(c, eta_t);
+    const FloatV inverse = hn::Div(one, hn::Mul(s_below, p_below));
+    const FloatV s = hn::Mul(hn::Mul(hn::Sub(eta_c, t), p_below), inverse);
+    const FloatV p = hn::Mul(hn::Mul(hn::Sub(c, eta_t), s_below), inverse);
     return {hn::Mul(hn::Set(d, 0.5f), hn::MulAdd(s, s, hn::Mul(p, p))), t};
 }
 
