@@ -34,11 +34,12 @@ void Buffer::reserve(std::size_t bytes) {
     bytes_ = bytes;
 }
 
-void Buffer::upload(std::span<const std::byte> bytes) {
-    assert(bytes.size() <= bytes_);
+void Buffer::upload(std::span<const std::byte> bytes, std::size_t first_byte) {
+    assert(first_byte + bytes.size() <= bytes_);
     if (bytes.empty()) return;
     context_.makeCurrent();
-    glNamedBufferSubData(handle_, 0, static_cast<GLsizeiptr>(bytes.size()), bytes.data());
+    glNamedBufferSubData(handle_, static_cast<GLintptr>(first_byte), static_cast<GLsizeiptr>(bytes.size()),
+                         bytes.data());
 }
 
 void Buffer::download(std::span<std::byte> bytes, std::size_t first_byte) const {

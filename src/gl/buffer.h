@@ -23,15 +23,15 @@ public:
     /// beyond what the device can bind.
     void reserve(std::size_t bytes);
 
-    /// Sets the first bytes.size() bytes, which the buffer must hold.
-    void upload(std::span<const std::byte> bytes);
+    /// Sets bytes.size() bytes from `first_byte` on, which the buffer must hold.
+    void upload(std::span<const std::byte> bytes, std::size_t first_byte = 0);
 
     /// Waits for the device, then copies out bytes.size() bytes from `first_byte` on.
     void download(std::span<std::byte> bytes, std::size_t first_byte = 0) const;
 
     template <typename T>
-    void upload(std::span<const T> values) {
-        upload(std::as_bytes(values));
+    void upload(std::span<const T> values, std::size_t first_byte = 0) {
+        upload(std::as_bytes(values), first_byte);
     }
     template <typename T>
     void download(std::span<T> values, std::size_t first_byte = 0) const {

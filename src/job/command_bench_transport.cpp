@@ -37,20 +37,20 @@ constexpr std::uint64_t first_walks = 200'000;
 
 struct Timed {
     HalfSpaceResult result;
-    double cpu_seconds = 0;
+    double seconds = 0;  // of the CPU; of the clock on the wall where OpenGL walks
 };
 
 Timed walkTimed(const HalfSpaceProblem& problem, const HalfSpaceOptions& options, Observer& observer) {
     const std::clock_t begin = std::clock();
     Timed timed{walkHalfSpace(problem, options, observer)};
-    timed.cpu_seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+    timed.seconds = options.gl ? timed.result.seconds : static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
     return timed;
 }
 
 // As many walks as take about so long, after a first run that finds out how many those are.
 Timed walkFor(double seconds, const HalfSpaceProblem& problem, HalfSpaceOptions options, Observer& observer) {
     options.walks = first_walks;
-    const double once = std::max(walkTimed(problem, options, observer).cpu_seconds, 1e-4);
+    const double once = std::max(walkTimed(problem, options, observer).seconds, 1e-4);
     options.walks = static_cast<std::uint64_t>(std::max(1.0, seconds / once) * static_cast<double>(first_walks));
     return walkTimed(problem, options, observer);
 }
@@ -67,29 +67,38 @@ Json meritAt(double radius, const Timed& timed) {
         const double relative = tally.standard_error[i] / tally.Rd[i];
         relative_variance += relative * relative / 5;
     }
-    return 1 / (relative_variance * timed.cpu_seconds);
+    return 1 / (relative_variance * timed.seconds);
 }
 
-Json rowJson(const Case& one, Estimator estimator, int bins, double seconds, std::uint64_t seed, Observer& observer) {
+// Who walks: an estimator on one thread of the CPU, or the analogue on OpenGL.
+struct Walker {
+    const char* name;
+    Estimator estimator;
+    gl::Context* gl = nullptr;
+};
+
+Json rowJson(const Case& one, const Walker& walker, int bins, double seconds, std::uint64_t seed, Observer& observer) {
     const HalfSpaceProblem& problem = one.problem;
     const double mfp = 1 / (problem.sigma_a + (1 - problem.g) * problem.sigma_s);
     HalfSpaceOptions options;
     options.seed = seed;
     options.threads = 1;
-    options.estimator = estimator;
+    options.estimator = walker.estimator;
+    options.gl = walker.gl;
     for (int i = 0; i <= bins; ++i) options.edges_mm.push_back(0.1 * i * mfp);
     const Timed timed = walkFor(seconds, problem, options, observer);
     const HalfSpaceResult& result = timed.result;
     Json row{{"case", one.name},
-             {"estimator", estimator == Estimator::best ? "best" : "analogue"},
+             {"estimator", walker.name},
              {"walked_by", result.estimator == Estimator::best ? "best" : "analogue"},
+             {"instruction_set", result.instruction_set},
              {"bins_to_mfp", 0.1 * bins},
-             {"walks_per_s", static_cast<double>(result.walks) / timed.cpu_seconds},
-             {"collisions_per_s", static_cast<double>(result.collisions) / timed.cpu_seconds}};
+             {"walks_per_s", static_cast<double>(result.walks) / timed.seconds},
+             {"collisions_per_s", static_cast<double>(result.collisions) / timed.seconds}};
     for (const double radius : radii) row["merit"].push_back(meritAt(radius, timed));
     const Estimate& total = result.all.total;
-    row["merit_total"] = total.mean * total.mean / (total.standard_error * total.standard_error * timed.cpu_seconds);
-    row["cpu_seconds"] = timed.cpu_seconds;
+    row["merit_total"] = total.mean * total.mean / (total.standard_error * total.standard_error * timed.seconds);
+    row[walker.gl ? "wall_seconds" : "cpu_seconds"] = timed.seconds;
     return row;
 }
 
@@ -106,27 +115,31 @@ double speedup(double seconds, Observer& observer) {
 
 std::string meritText(const Json& merit) { return merit.is_null() ? "-" : fmt::format("{:.3g}", merit.get<double>()); }
 
-JobResult runBenchTransport(const Job& job, Engine&, Observer& observer) {
+JobResult runBenchTransport(const Job& job, Engine& engine, Observer& observer) {
     const Options options(job);
     const double seconds = options.number("seconds");
+    std::vector<Walker> walkers{{"analogue", Estimator::analogue}, {"best", Estimator::best}};
+    if (options.text("backend") == "gl") walkers.push_back({"gl", Estimator::analogue, &engine.context()});
     Json document = documentJson("searchlight-bench/1", job);
     document["bench"] = "transport";
     document["radii_mfp"] = radii;
-    document["merit"] = "1 / (relative variance x CPU seconds) of bins of 0.1 reduced mean free paths, one thread";
+    document["merit"] =
+        "1 / (relative variance x CPU seconds) of bins of 0.1 reduced mean free paths, one thread; of gl: x seconds of "
+        "the device";
     JobResult result;
     result.text = fmt::format("{:20} {:10} {:>9} {:>12}  figure of merit at r =\n{:20} {:10} {:>9} {:>12}", "", "",
                               "walks/s", "collisions/s", "", "", "", "");
     for (const double radius : radii) result.text += fmt::format(" {:>9}", radius);
     result.text += fmt::format(" {:>9}\n", "total");
-    const std::uint64_t total = std::size(cases) * 4;
+    const std::uint64_t total = std::size(cases) * 2 * walkers.size();
     std::uint64_t done = 0;
     Observer quiet;  // of each row's own walks
     for (const Case& one : cases)
         for (const int bins : {bins_to_5, bins_to_10})
-            for (const Estimator estimator : {Estimator::analogue, Estimator::best}) {
+            for (const Walker& walker : walkers) {
                 if (observer.cancelled()) throw interruptedError();
                 observer.progress("bench", done++, total, "rows");
-                Json row = rowJson(one, estimator, bins, seconds, job.seed, quiet);
+                Json row = rowJson(one, walker, bins, seconds, job.seed, quiet);
                 document["instruction_set"] = halfSpaceInstructionSet();
                 result.text +=
                     fmt::format("{:20} {:10} {:9.3g} {:12.3g}", one.name, row["estimator"].get<std::string>(),
@@ -152,7 +165,12 @@ Command benchTransportCommand() {
         .summary = "Time the walks of the half-space, and say what each estimator is worth",
         .example = "searchlight bench transport --json",
         .options =
-            {{.name = "seconds", .unit = "s", .min = 0.01, .max = 3600, .value = 2.0, .doc = "CPU time of each row"}},
+            {{.name = "seconds", .unit = "s", .min = 0.01, .max = 3600, .value = 2.0, .doc = "CPU time of each row"},
+             {.name = "backend",
+              .type = ParamType::choice,
+              .value = std::string("cpu"),
+              .choices = {"cpu", "gl"},
+              .doc = "gl: rows of the walk on OpenGL, too"}},
         .uses_seed = true,
         .output = "the JSON document",
         .run = runBenchTransport};

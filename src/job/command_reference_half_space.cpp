@@ -79,6 +79,16 @@ void refuseWhite(const Options& options) {
     if (options.number("beam_radius") > 0) throw usageError("--white has no --beam", "its tables are of a pencil beam");
 }
 
+void refuseGl(const Options& options) {
+    for (const char* name : {"white", "exact"})
+        if (options.toggle(name))
+            throw usageError(fmt::format("--backend gl and --{} exclude each other", name), "OpenGL walks by itself");
+    if (options.given("estimator") && options.text("estimator") != "analogue")
+        throw usageError("--backend gl has no --estimator best", "OpenGL walks by the analogue estimator");
+    if (options.given("threads"))
+        throw usageError("--backend gl has no --threads", "the device has its own; --threads is for --backend cpu");
+}
+
 // Where the channels came from: null for those that were walked. Channels that share a table share its errors.
 Json whiteJson(const ReferenceRun& run) {
     Json tables = Json::array();
@@ -125,6 +135,7 @@ Json problemJson(const Medium& medium, const ReferenceOptions& reference) {
               {"estimator", reference.estimator == Estimator::best ? "best" : "analogue"}};
     // What came later is named only where it is used, so that older sums go on.
     if (reference.beam.kind != BeamShape::pencil) json["beam"] = {reference.beam.kind, reference.beam.radius};
+    if (reference.gl) json["backend"] = "gl";
     return json;
 }
 
@@ -151,6 +162,11 @@ JobResult runReferenceHalfSpace(const Job& job, Engine& engine, Observer& observ
     if (reference.white) refuseWhite(options);
     reference.exact = options.toggle("exact");
     if (reference.exact) refuseExact(options, subject);
+    if (options.text("backend") == "gl") {
+        refuseGl(options);
+        reference.estimator = Estimator::analogue;
+        reference.gl = &engine.context();
+    }
     if (reference.edges_mm.empty()) reference.edges_mm = plotEdges(subject.medium, 0, 100);
     SavedWalks saved(options, job, problemJson(subject.medium, reference), Rgb::channels);
     if (reference.white || reference.exact)
@@ -195,6 +211,7 @@ JobResult runReferenceHalfSpace(const Job& job, Engine& engine, Observer& observ
     document["seconds"] = run.seconds();
     document["threads"] = any->threads;
     document["instruction_set"] = any->instruction_set;
+    document["backend"] = options.text("backend");
     if (reference.white) document["white"] = whiteJson(run);
     document["estimator"] = reference.exact                ? "exact"
                             : reference.white              ? "white"
@@ -226,9 +243,11 @@ JobResult runReferenceHalfSpace(const Job& job, Engine& engine, Observer& observ
         result.text +=
             fmt::format("{:.3g} s, from tables of walks without absorption; the profile is in --json\n", run.seconds());
     else
-        result.text += fmt::format("{:.3g} walks/s on {} threads ({}), {:.3g} s; the profile is in --json\n",
-                                   static_cast<double>(run.walks()) / run.seconds(), any->threads, any->instruction_set,
-                                   run.seconds());
+        result.text += fmt::format(
+            "{:.3g} walks/s on {}, {:.3g} s; the profile is in --json\n",
+            static_cast<double>(run.walks()) / run.seconds(),
+            reference.gl ? any->instruction_set : fmt::format("{} threads ({})", any->threads, any->instruction_set),
+            run.seconds());
     result.interrupted = run.interrupted;
     if (run.interrupted) result.text += "interrupted; channels that are missing were not reached\n";
     if (!job.output.empty()) writeFile(job.output, result.json + "\n");
@@ -272,6 +291,7 @@ Command referenceHalfSpaceCommand() {
                   .type = ParamType::toggle,
                   .value = false,
                   .doc = "solve without walks: eta 1, g 0, normal incidence; stderr then bounds the numerical error"},
+                 option::walkBackend(),
                  option::threads(),
                  option::untilError("total and profile"),
                  option::resume()},

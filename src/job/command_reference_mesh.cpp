@@ -140,7 +140,8 @@ std::string textOf(const Setup& setup, const Channels& channels) {
         taken_back += r->taken_back;
         lost += r->lost;
     }
-    text += fmt::format("{:.3g} collisions/s on {} threads, {:.3g} s", collisions / seconds, threads, seconds);
+    text += fmt::format("{:.3g} collisions/s on {}, {:.3g} s", collisions / seconds,
+                        setup.walk.gl ? "OpenGL" : fmt::format("{} threads", threads), seconds);
     if (taken_back > 0) text += fmt::format("; {} walks taken back inside", taken_back);
     if (lost > 0) text += fmt::format("; {} walks lost by rounding", lost);
     text += "\n";
@@ -155,6 +156,7 @@ JobResult finish(const Job& job, const Setup& setup, const Body& body, std::stri
                  {"cells", body.cellCount()},
                  {"area_mm2", body.area()},
                  {"volume_mm3", body.volume()}};
+    if (setup.walk.gl) problem["backend"] = "gl";
     SavedWalks saved(Options(job), job, std::move(problem), Rgb::channels);
     const Channels channels = walkChannels(body, setup, saved, observer);
     saved.save();
@@ -164,6 +166,7 @@ JobResult finish(const Job& job, const Setup& setup, const Body& body, std::stri
     document["per"] = "incident";
     document["geometry"] = geometry;
     document["estimator"] = "exitance, analogue";
+    document["backend"] = setup.walk.gl ? "gl" : "cpu";
     document["material"] = subjectJson(setup.subject);
     document["volume_mm3"] = body.volume();
     document["area_mm2"] = body.area();
@@ -206,7 +209,8 @@ JobResult runReferenceSphere(const Job& job, Engine& engine, Observer& observer)
     Scene scene = job.scene;
     scene.object = "sphere";
     scene.scale = 2 * options.number("radius");
-    const Setup setup = setupOf(job, engine, options, scene);
+    Setup setup = setupOf(job, engine, options, scene);
+    if (options.text("backend") == "gl") setup.walk.gl = &engine.context();
     return finish(job, setup, Ball(options.number("radius"), setup.cell_area_mm2), "sphere", observer);
 }
 
@@ -256,6 +260,7 @@ Command referenceSphereCommand() {
                                      .value = 10.0,
                                      .doc = "of the sphere",
                                      .exclusive = true});
+    options.insert(options.end() - 3, option::walkBackend());
     return {.name = "reference sphere",
             .summary = "Walk light through a sphere by unbiased Monte Carlo",
             .example =

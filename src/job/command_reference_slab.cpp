@@ -7,6 +7,7 @@
 #include "base/files.h"
 #include "job/beam_option.h"
 #include "job/command_table.h"
+#include "job/engine.h"
 #include "job/saved_walks.h"
 #include "job/shared_options.h"
 #include "job/slab_json.h"
@@ -73,6 +74,7 @@ Json problemJson(const SlabProblem& problem, const SlabOptions& options) {
     // What came later is named only where it is used, so that older sums go on.
     if (options.grid > 0) json["grid"] = {options.grid, options.grid_extent_mm};
     if (problem.beam.kind != BeamShape::pencil) json["beam"] = {problem.beam.kind, problem.beam.radius};
+    if (options.gl) json["backend"] = "gl";
     for (const SlabLayer& layer : problem.layers) {
         Json& one = json["layers"].emplace_back(Json{{"n", layer.n},
                                                      {"sigma_a", layer.sigma_a},
@@ -84,7 +86,7 @@ Json problemJson(const SlabProblem& problem, const SlabOptions& options) {
     return json;
 }
 
-JobResult runReferenceSlab(const Job& job, Engine&, Observer& observer) {
+JobResult runReferenceSlab(const Job& job, Engine& engine, Observer& observer) {
     const Options options(job);
     SlabSubject subject = slabOf(options);
     SlabOptions& walk = subject.options;
@@ -110,6 +112,11 @@ JobResult runReferenceSlab(const Job& job, Engine&, Observer& observer) {
     option::requireGridExtent(options);
     walk.seed = job.seed;
     walk.threads = static_cast<int>(options.number("threads"));
+    if (options.text("backend") == "gl") {
+        if (options.given("threads"))
+            throw usageError("--backend gl has no --threads", "the device has its own; --threads is for --backend cpu");
+        walk.gl = &engine.context();
+    }
     SavedWalks saved(options, job, problemJson(subject.problem, walk), 1);
     walk.control = saved.control(0);
     const SlabResult walked = walkSlab(subject.problem, walk, observer);
@@ -121,6 +128,7 @@ JobResult runReferenceSlab(const Job& job, Engine&, Observer& observer) {
     const Json numbers = slabJson(subject.problem, walk, walked);
     for (const auto& [key, value] : numbers.items()) document[key] = value;
     document["estimator"] = "analogue";
+    document["backend"] = options.text("backend");
     JobResult result;
     result.json = document.dump(1);
     result.text =
@@ -189,6 +197,7 @@ Command referenceSlabCommand() {
                          .doc = "also A(r, z), fluence(r, z), R(r, alpha), T(r, alpha)"},
                         option::grid("R(x, y) and T(x, y)"),
                         option::gridExtent(),
+                        option::walkBackend(),
                         option::threads(),
                         option::untilError("R, T and A"),
                         option::resume()},

@@ -97,6 +97,7 @@ ReferenceRun runReference(const Medium& medium, const ReferenceOptions& options,
         walk.strip_half_width_mm = options.strip_half_width_mm;
         walk.threads = options.threads;
         walk.estimator = options.estimator;
+        walk.gl = options.gl;
         if (options.control) walk.control = options.control(c);
         HalfSpaceResult walked = walkHalfSpace(problem, walk, observer);
         run.interrupted = walked.interrupted;

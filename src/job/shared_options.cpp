@@ -29,6 +29,13 @@ Param backend() {
             .choices = {"auto", "cpu", "gl"},
             .doc = "auto: native code for shipped models, OpenGL for others"};
 }
+Param walkBackend() {
+    return {.name = "backend",
+            .type = ParamType::choice,
+            .value = std::string("cpu"),
+            .choices = {"cpu", "gl"},
+            .doc = "what walks; gl: the analogue walk on OpenGL"};
+}
 Param angle() {
     return {.name = "angle_deg", .unit = "deg", .min = 0, .max = 89.9, .value = 0.0, .doc = "of incidence"};
 }

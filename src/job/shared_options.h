@@ -20,6 +20,9 @@ Param set();
 /// What evaluates a model.
 Param backend();
 
+/// What walks: the CPU or OpenGL.
+Param walkBackend();
+
 /// Angle of incidence, degrees.
 Param angle();
 

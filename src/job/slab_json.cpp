@@ -98,8 +98,10 @@ std::string slabText(const SlabProblem& problem, const SlabResult& result) {
     for (std::size_t i = 0; i < problem.layers.size() && problem.layers.size() > 1; ++i)
         text += line(fmt::format("  in layer {}", i + 1), result.A_layer[i]);
     if (result.walks > 0)
-        text += fmt::format("{:.3g} walks/s on {} threads ({}), {:.3g} s\n",
-                            static_cast<double>(result.walks) / result.seconds, result.threads, result.instruction_set,
+        text += fmt::format("{:.3g} walks/s on {}, {:.3g} s\n", static_cast<double>(result.walks) / result.seconds,
+                            result.instruction_set.starts_with("GL ")
+                                ? result.instruction_set
+                                : fmt::format("{} threads ({})", result.threads, result.instruction_set),
                             result.seconds);
     return text;
 }

@@ -29,7 +29,7 @@ const std::vector<Folder>& folders() {
         {"geometry", {"base", "scene", "io"}},
         {"model", {"base", "language", "gl", "scene"}},
         {"light", {"base", "gl", "scene", "io", "geometry", "model"}},
-        {"transport", {"base", "scene", "geometry", "model", "light"}},
+        {"transport", {"base", "gl", "scene", "geometry", "model", "light"}},
         {"kernel", {"base", "model"}},
         {"render", {"base", "language", "gl", "scene", "io", "geometry", "model", "light", "transport", "kernel"}},
         {"plot", {"base", "scene", "model", "transport", "kernel"}},

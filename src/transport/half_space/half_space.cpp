@@ -9,6 +9,7 @@
 #include "base/parallel.h"
 #include "base/text.h"
 #include "transport/half_space/half_space_best.h"
+#include "transport/half_space/half_space_gl.h"
 #include "transport/half_space/half_space_walk.h"
 #include "transport/walk/beam.h"
 #include "transport/walk/chunks.h"
@@ -216,7 +217,7 @@ HalfSpaceResult walkHalfSpace(const HalfSpaceProblem& problem, const HalfSpaceOp
     result.instruction_set = halfSpaceInstructionSet();
     const bool cells = options.grid > 0 || !options.strip_edges_mm.empty();
     const bool pencil = problem.beam.kind == BeamShape::pencil;
-    result.estimator = cells || !pencil ? Estimator::analogue : options.estimator;
+    result.estimator = cells || !pencil || options.gl ? Estimator::analogue : options.estimator;
     if (problem.sigma_s == 0 || beam.specular == 1) {
         result.all = result.single = result.multiple = emptyTally(options);
         return result;
@@ -242,7 +243,14 @@ HalfSpaceResult walkHalfSpace(const HalfSpaceProblem& problem, const HalfSpaceOp
     job.threads = options.threads;
     job.enough = enoughFor(options.control.until_error, layout);
     job.control = options.control;
+    std::optional<HalfSpaceGl> device;
+    if (options.gl) {
+        device.emplace(*options.gl, walk, options.seed, job.plan, options.control);
+        job.threads = result.threads = 1;
+        result.instruction_set = device->device();
+    }
     const auto walkOne = [&](std::uint64_t chunk, std::uint64_t walks, ExitTally& tally) {
+        if (device) return device->walkChunk(chunk, tally);
         return best ? walkBestChunk(*best, options.seed, chunk, walks, tally)
                     : walkHalfSpaceChunk(walk, options.seed, chunk, walks, tally);
     };

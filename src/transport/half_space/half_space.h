@@ -13,6 +13,10 @@
 
 namespace searchlight {
 
+namespace gl {
+class Context;
+}
+
 struct HalfSpaceProblem {
     double sigma_a = 0;    ///< 1/mm
     double sigma_s = 1;    ///< 1/mm, not reduced
@@ -39,6 +43,7 @@ struct HalfSpaceOptions {
     double strip_half_width_mm = 0;             ///< the strip is |y| < this
     int threads = 0;                            ///< 0: all
     Estimator estimator = Estimator::analogue;  ///< a grid, a strip or a wide beam is always walked by the analogue
+    gl::Context* gl = nullptr;                  ///< walk there, by the analogue; null: on the CPU
     WalkControl control;  ///< until_error: of the total, and of the profile: the mean over its bins, weighted by flux
 };
 
@@ -67,7 +72,7 @@ struct HalfSpaceResult {
     std::uint64_t collisions = 0;
     double seconds = 0;  ///< wall time of walking
     int threads = 0;
-    std::string instruction_set;  ///< "AVX3" (AVX-512), "AVX2", "SSE4"...
+    std::string instruction_set;  ///< "AVX3" (AVX-512), "AVX2", "SSE4"...; or "GL" and the device
     bool interrupted = false;     ///< fewer walks than asked for; they may be none
 };
 
@@ -78,7 +83,8 @@ HalfSpaceProblem halfSpaceProblem(const Medium& medium, int channel, double angl
 void checkHalfSpaceProblem(const HalfSpaceProblem& problem);
 
 /// Walks. The result depends on problem, walks, seed and edges alone, not on threads; AVX2 and AVX-512 agree bit for
-/// bit. Throws an input Error for an impossible problem, interruptedError() when the observer cancels.
+/// bit; on OpenGL it depends on the device, too. Throws an input Error for an impossible problem, interruptedError()
+/// when the observer cancels.
 HalfSpaceResult walkHalfSpace(const HalfSpaceProblem& problem, const HalfSpaceOptions& options, Observer& observer);
 
 }  // namespace searchlight

@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <type_traits>
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "transport/mesh/ball_gl.h"
 #include "transport/mesh/body_walk.h"
 #include "transport/walk/chunks.h"
 
@@ -145,11 +148,32 @@ BodyResult walkAny(const Body& body, const Medium& medium, int channel, const Il
             return e.mean > 0 && e.standard_error <= error * e.mean;
         };
     job.control = options.control;
+    // Channels have streams of their own.
+    const auto streamOfChunk = [&](std::uint64_t chunk) {
+        return streamOf(options.seed, 4 * chunk + static_cast<std::uint64_t>(channel));
+    };
+    std::optional<BallGl> device;
+    if constexpr (std::is_same_v<Body, Ball>) {
+        if (options.gl) {
+            const auto sourceOf = [&](std::uint64_t chunk) {
+                return EntrySource<Ball>(body, light, entry, job.plan.walksOf(chunk),
+                                         SplitMix64(streamOfChunk(chunk).next()));
+            };
+            device.emplace(*options.gl, body, walk, streamOf(options.seed, static_cast<std::uint64_t>(channel)).next(),
+                           chunksOnGl(options.control, job.plan.chunks(), job.plan.size), sourceOf);
+            job.threads = 1;
+        }
+    } else if (options.gl) {
+        throw inputError("OpenGL does not walk in meshes", "a sphere, or the CPU (--backend cpu)");
+    }
     const ChunkedResult walked = walkChunks(
         job, emptySums(body.cellCount()), BodyChunk(),
         [&](std::uint64_t chunk, std::uint64_t tried, BodyChunk& tally) {
-            // Channels have streams of their own.
-            SplitMix64 seeds = streamOf(options.seed, 4 * chunk + static_cast<std::uint64_t>(channel));
+            if (device) {
+                tally = device->walkChunk(chunk);
+                return tally.collisions;
+            }
+            SplitMix64 seeds = streamOfChunk(chunk);
             EntrySource<Body> source(body, light, entry, tried, SplitMix64(seeds.next()));
             tally = walkBodyChunk(body, walk, source, SplitMix64(seeds.next()));
             tally.entry = source.totals();
@@ -161,7 +185,7 @@ BodyResult walkAny(const Body& body, const Medium& medium, int channel, const Il
         },
         observer);
     BodyResult result = resultOf(walked, body, pilot);
-    result.threads = options.threads > 0 ? options.threads : hardwareThreads();
+    result.threads = device ? 1 : options.threads > 0 ? options.threads : hardwareThreads();
     if (static_cast<double>(result.taken_back + result.lost) > kMostLost * static_cast<double>(result.entries) + 3)
         throw inputError(fmt::format("{} of {} walks left the mesh without crossing its surface",
                                      result.taken_back + result.lost, result.entries),

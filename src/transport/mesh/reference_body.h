@@ -15,10 +15,15 @@
 
 namespace searchlight {
 
+namespace gl {
+class Context;
+}
+
 struct BodyOptions {
     std::uint64_t walks = 1'000'000;  ///< light paths that reach the surface, about: they are drawn
     std::uint64_t seed = 1;
-    int threads = 0;  ///< 0: all
+    int threads = 0;            ///< 0: all
+    gl::Context* gl = nullptr;  ///< walk there, in a ball; null: on the CPU
     WalkControl control;
 };
 

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/text.h"
+#include "transport/slab/slab_gl.h"
 #include "transport/slab/slab_walk.h"
 #include "transport/walk/chunks.h"
 #include "transport/walk/fresnel.h"
@@ -123,14 +124,16 @@ Entry entryOf(const SlabProblem& problem) {
 
 // Which part of the collisions the tally counts: all would take more time than the walk. Where walks collide often
 // before they are absorbed, each collision says little that its neighbours do not. At least the absorbed ones, so that
-// counting those alone (the analogue estimator) is the end of the scale.
-double countedPart(const SlabLayer& layer) {
-    return std::clamp(2.5 * std::sqrt(layer.sigma_a / (layer.sigma_a + layer.sigma_s)), 1.0 / 16, 1.0);
+// counting those alone (the analogue estimator, all that there is on OpenGL) is the end of the scale.
+double countedPart(const SlabLayer& layer, bool absorbed_alone) {
+    const double absorbed = layer.sigma_a / (layer.sigma_a + layer.sigma_s);
+    return absorbed_alone ? absorbed : std::clamp(2.5 * std::sqrt(absorbed), 1.0 / 16, 1.0);
 }
 
-SlabLayout::Layer countedCollision(const SlabLayer& layer, double top_mm) {
+SlabLayout::Layer countedCollision(const SlabLayer& layer, double top_mm, bool absorbed_alone) {
     if (layer.clear()) return {top_mm, 0, 0};
-    const double counted = (layer.sigma_a + layer.sigma_s) * countedPart(layer);
+    const double counted = (layer.sigma_a + layer.sigma_s) * countedPart(layer, absorbed_alone);
+    if (counted == 0) return {top_mm, 0, 0};
     return {top_mm, layer.sigma_a / counted, 1 / counted};
 }
 
@@ -145,7 +148,7 @@ SlabWalk walkOf(const SlabProblem& problem, const Entry& entry) {
         SlabWalk::Layer& into = walk.layers.emplace_back();
         into.mfp_mm = layer.clear() ? kClearMfp : 1 / sigma_t;
         into.absorbed = layer.clear() ? 0 : layer.sigma_a / sigma_t;
-        into.counted = layer.clear() ? 0 : countedPart(layer);
+        into.counted = layer.clear() ? 0 : countedPart(layer, false);
         into.g = layer.g;
         if (layer.phase) into.phase = walk.tables.add(*layer.phase);
         into.thickness_mm = layer.thickness_mm;
@@ -172,8 +175,8 @@ std::vector<Occupied> occupiedDepths(const SlabProblem& problem, const SlabOptio
     double top = 0;
     for (const SlabLayer& layer : problem.layers) {
         const double bottom = top + layer.thickness_mm;
-        const SlabLayout::Layer one = countedCollision(layer, top);
-        for (std::size_t i = 0; !layer.clear() && i < bins.size(); ++i) {
+        const SlabLayout::Layer one = countedCollision(layer, top, options.gl);
+        for (std::size_t i = 0; one.fluence_mm > 0 && i < bins.size(); ++i) {
             const double begin = step * static_cast<double>(i), end = step * static_cast<double>(i + 1);
             const double length = std::min(bottom, end) - std::max(top, begin);
             if (length <= 1e-9 * step) continue;  // the rounding of thicknesses that are multiples of the step
@@ -329,7 +332,7 @@ SlabLayout slabLayout(const SlabProblem& problem, const SlabOptions& options) {
     std::vector<SlabLayout::Layer> layers;
     double top = 0;
     for (const SlabLayer& layer : problem.layers) {
-        layers.push_back(countedCollision(layer, top));
+        layers.push_back(countedCollision(layer, top, options.gl));
         top += layer.thickness_mm;
     }
     return {options.edges_mm,
@@ -360,9 +363,16 @@ SlabResult walkSlab(const SlabProblem& problem, const SlabOptions& options, Obse
     job.threads = options.threads;
     job.enough = enoughFor(options.control.until_error, layout);
     job.control = options.control;
+    std::optional<SlabGl> device;
+    if (options.gl) {
+        device.emplace(*options.gl, walk, options.seed, job.plan, options.control);
+        job.threads = result.threads = 1;
+        result.instruction_set = device->device();
+    }
     const ChunkedResult walked = walkChunks(
         job, {BatchRatios(layout.slots())}, SlabTally(layout),
         [&](std::uint64_t chunk, std::uint64_t walks, SlabTally& tally) {
+            if (device) return device->walkChunk(chunk, tally);
             return walkSlabChunk(walk, options.seed, chunk, walks, tally);
         },
         [](const SlabTally& chunk, std::uint64_t walks, std::vector<BatchRatios>& sums) {

@@ -17,6 +17,10 @@
 
 namespace searchlight {
 
+namespace gl {
+class Context;
+}
+
 /// One plane layer between smooth Fresnel surfaces. One that neither absorbs nor scatters is clear: glass, or a gap.
 struct SlabLayer {
     double n = 1;             ///< refractive index
@@ -51,6 +55,7 @@ struct SlabOptions {
     int grid = 0;                  ///< cells per side of R(x, y) and T(x, y); 0: none
     double grid_extent_mm = 0;     ///< the square is [-extent, extent]^2
     int threads = 0;               ///< 0: all
+    gl::Context* gl = nullptr;     ///< walk there, counting the collisions that absorb alone; null: on the CPU
     WalkControl control;           ///< until_error: of R, T and A, those above 0
 };
 
@@ -72,7 +77,8 @@ struct SlabResult {
     SlabSeries T_r;                            ///< on the lower surface, 1/mm^2
     SlabSeries R_a, T_a;                       ///< over the angle of the direction outside, 1/sr
     SlabSeries A_z;                            ///< 1/mm; from collisions, so its sum meets A within errors
-    SlabSeries fluence_z;                      ///< A_z / sigma_a, also where sigma_a is 0; NaN in bins that are clear
+    /// A_z / sigma_a, also where sigma_a is 0 (not on OpenGL); NaN in bins that are clear.
+    SlabSeries fluence_z;
     /// The maps, empty unless asked for; row-major, the annulus first.
     SlabSeries R_ra, T_ra;     ///< radiance, 1/(mm^2 sr): per solid angle times cosine
     SlabSeries A_rz;           ///< 1/mm^3
@@ -83,7 +89,7 @@ struct SlabResult {
     std::uint64_t collisions = 0;
     double seconds = 0;  ///< wall time of walking
     int threads = 0;
-    std::string instruction_set;  ///< "AVX3" (AVX-512), "AVX2", "SSE4"...
+    std::string instruction_set;  ///< "AVX3" (AVX-512), "AVX2", "SSE4"...; or "GL" and the device
     bool interrupted = false;     ///< fewer walks than asked for; they may be none
 };
 
@@ -91,7 +97,8 @@ struct SlabResult {
 SlabLayout slabLayout(const SlabProblem& problem, const SlabOptions& options);
 
 /// Walks. The result depends on problem, walks, seed and the tallies' layout alone, not on threads; AVX2 and AVX-512
-/// agree bit for bit. Throws an input Error for an impossible problem, interruptedError() when the observer cancels.
+/// agree bit for bit; on OpenGL it depends on the device, too. Throws an input Error for an impossible problem,
+/// interruptedError() when the observer cancels.
 SlabResult walkSlab(const SlabProblem& problem, const SlabOptions& options, Observer& observer);
 
 /// Reads `{"format": "searchlight-layers/1", "n_above", "n_below", "layers": [{"n", "sigma_a", "sigma_s", "g",

@@ -283,29 +283,10 @@ private:
             const BeamPoint point = walk_.shape.draw(rare_, walk_.cos_incidence);
             x[lane] = static_cast<float>(point.x);
             y[lane] = static_cast<float>(point.y);
-            if (walk_.entry.size() > 1) x[lane] += entryShift();
+            if (walk_.entry.size() > 1) x[lane] += static_cast<float>(entryShift(walk_.entry, rare_));
         });
         pack.x = hn::IfThenElse(free, hn::Load(d, x), pack.x);
         pack.y = hn::IfThenElse(free, hn::Load(d, y), pack.y);
-    }
-
-    float entryShift() {
-        const std::vector<SlabWalk::Surface>& surfaces = walk_.entry;
-        const auto below = static_cast<std::ptrdiff_t>(surfaces.size());
-        for (;;) {  // until one enters: those that do not are the specular part, which is known
-            double shift = 0;
-            std::ptrdiff_t next = 0;  // surface ahead
-            bool down = true;
-            while (next >= 0 && next < below) {
-                const bool reflected = rare_.uniform() < surfaces[static_cast<std::size_t>(next)].reflectance;
-                if (reflected) down = !down;
-                // Behind the surface when reflected, beyond it otherwise, lies the layer to cross.
-                const std::ptrdiff_t layer = down ? next : next - 1;
-                if (layer >= 0 && layer + 1 < below) shift += surfaces[static_cast<std::size_t>(layer)].shift_mm;
-                next += down ? 1 : -1;
-            }
-            if (down) return static_cast<float>(shift);
-        }
     }
 
     HWY_NOINLINE FloatM rouletteLong(IntV collisions, FloatM is_long, std::size_t at) {
@@ -361,6 +342,24 @@ namespace searchlight {
 
 HWY_EXPORT(walkSlab);
 HWY_EXPORT(slabTarget);
+
+double entryShift(const std::vector<SlabWalk::Surface>& surfaces, SplitMix64& random) {
+    const auto below = static_cast<std::ptrdiff_t>(surfaces.size());
+    for (;;) {  // until one enters: those that do not are the specular part, which is known
+        double shift = 0;
+        std::ptrdiff_t next = 0;  // surface ahead
+        bool down = true;
+        while (next >= 0 && next < below) {
+            const bool reflected = random.uniform() < surfaces[static_cast<std::size_t>(next)].reflectance;
+            if (reflected) down = !down;
+            // Behind the surface when reflected, beyond it otherwise, lies the layer to cross.
+            const std::ptrdiff_t layer = down ? next : next - 1;
+            if (layer >= 0 && layer + 1 < below) shift += surfaces[static_cast<std::size_t>(layer)].shift_mm;
+            next += down ? 1 : -1;
+        }
+        if (down) return shift;
+    }
+}
 
 std::uint64_t walkSlabChunk(const SlabWalk& walk, std::uint64_t seed, std::uint64_t chunk, std::uint64_t walks,
                             SlabTally& tally) {

@@ -36,6 +36,9 @@ struct SlabWalk {
     double cos_incidence = 1;  ///< outside
 };
 
+/// How far along x the beam enters from where it met the slab, through more than one surface; of walks that enter.
+double entryShift(const std::vector<SlabWalk::Surface>& surfaces, SplitMix64& random);
+
 /// Starts `walks` walks of the stream (seed, chunk), finishes them all and adds every end to the tally. Returns the
 /// number of collisions.
 std::uint64_t walkSlabChunk(const SlabWalk& walk, std::uint64_t seed, std::uint64_t chunk, std::uint64_t walks,
