@@ -126,6 +126,10 @@ PictureService::Request PictureService::requestOf(bool moving) const {
             request.label_a = QString::fromStdString(state.technique);
         } else {
             request.with_reference = true;
+            // The walks know what leaves the object, and nothing of what stands around it.
+            request.a.scene.coat.reset();
+            request.a.scene.ground.reset();
+            request.a.scene.backdrop.reset();
             request.reference = reference_;
             request.label_b = tr("Reference");
         }

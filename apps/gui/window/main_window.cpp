@@ -22,6 +22,7 @@
 #include "gui/state/open_path.h"
 #include "gui/view/object_view.h"
 #include "gui/view/save_picture.h"
+#include "gui/window/dock_title.h"
 #include "gui/window/docks.h"
 #include "gui/window/notice_bar.h"
 #include "gui/window/task_bar.h"
@@ -83,6 +84,7 @@ void MainWindow::makeDocks() {
         dock->setObjectName(QString("dock.") + entry.id);
         dock->setAccessibleName(tr(entry.title));
         dock->setAccessibleDescription(tr(entry.doc));
+        dock->setTitleBarWidget(new DockTitle(desk_.theme, dock));
         QWidget* body = entry.make(desk_);
         body->setAccessibleName(tr(entry.title));
         dock->setWidget(body);
