@@ -114,6 +114,14 @@ ModelText modelText(const std::string& id) {
     return found;
 }
 
+QString modelTitle(const std::string& id) {
+    try {
+        return QString::fromStdString(loadModel(id).file.title);
+    } catch (const Error&) {
+        return QString::fromStdString(id).section(QLatin1Char('/'), -1);
+    }
+}
+
 QString modelsFolder() {
     const QString wish = qEnvironmentVariable("SEARCHLIGHT_MODELS");
     const QString folder = wish.isEmpty() ? QStandardPaths::writableLocation(QStandardPaths::GenericDataLocation) +

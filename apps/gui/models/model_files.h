@@ -17,6 +17,9 @@ struct ModelText {
 /// Of a model's id: shipped, or a path. Throws an input Error for a file that cannot be read.
 ModelText modelText(const std::string& id);
 
+/// Its title; for a file that cannot be read, its name.
+QString modelTitle(const std::string& id);
+
 /// Where new models go: DATA/searchlight/models, made when needed; $SEARCHLIGHT_MODELS in its place.
 QString modelsFolder();
 

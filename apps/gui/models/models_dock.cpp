@@ -24,16 +24,13 @@ namespace {
 
 enum Column { name_column, eye_column, solo_column, columns };
 
-// What a slot is called: the model's title, or the id where the file cannot be read.
+// What a slot is called: its title, and of a file its name.
 QString titleOf(const ModelSlot& slot) {
-    try {
-        const QString title = QString::fromStdString(loadModel(slot.model.id).file.title);
-        if (!slot.model.id.ends_with(".bssrdf") && !slot.model.id.ends_with(".csv")) return title;
-        const QString file = QString::fromStdString(slot.model.id).section(QLatin1Char('/'), -1);
-        return QStringLiteral("%1  (%2)").arg(title, file);
-    } catch (const Error&) {
-        return QString::fromStdString(slot.model.id).section(QLatin1Char('/'), -1);
-    }
+    const std::string& id = slot.model.id;
+    const QString title = modelTitle(id);
+    if (!id.ends_with(".bssrdf") && !id.ends_with(".csv")) return title;
+    const QString file = QString::fromStdString(id).section(QLatin1Char('/'), -1);
+    return file == title ? title : QStringLiteral("%1  (%2)").arg(title, file);
 }
 
 QIcon swatch(const QColor& color, qreal ratio) {

@@ -78,6 +78,7 @@ void FigureView::setFigure(Figure figure, const QString& empty_text) {
     if (!same(figure.x, figure_.x) || !same(figure.y, figure_.y)) zoomed_.reset();
     figure_ = std::move(figure);
     empty_text_ = empty_text;
+    panels_.reset();
     setCursor(cursor_);
     QString heard = QString::fromStdString(figure_.title);
     for (const Series& series : figure_.series) heard += QStringLiteral("; ") + QString::fromStdString(series.label);
@@ -106,16 +107,9 @@ Rect FigureView::frameOf(const FigureRange& range) const {
     for (const Tick& tick : ticks.ticks) labels = std::max(labels, labelWidth(tick));
     const double left = margin + label_size + 8 + labels + 7;
     const double top = margin + (ticks.factor != 0 ? 16 : 4);
-    return {std::round(left) + 0.5, std::round(top) + 0.5, std::max(left + 40, width() - margin - 6.0) + 0.5,
+    return {std::round(left) + 0.5, std::round(top) + 0.5,
+            std::max(left + 40, width() - margin - 6.0 - legend_room_) + 0.5,
             std::max(top + 40, height() - margin - 36.0) + 0.5};
-}
-
-AxisMap FigureView::mapX(const FigureRange& range, const Rect& frame) const {
-    return {figure_.x.scale, range.x_min, range.x_max, frame.left, frame.right};
-}
-
-AxisMap FigureView::mapY(const FigureRange& range, const Rect& frame) const {
-    return {figure_.y.scale, range.y_min, range.y_max, frame.bottom, frame.top};
 }
 
 void FigureView::zoom(double factor, QPointF about) {
@@ -164,12 +158,11 @@ void FigureView::setCursor(std::optional<QPointF> at) {
     }
 }
 
-void FigureView::paintReadOut(QPainter& painter, const Rect& frame, const AxisMap& x, const AxisMap& y) {
+void FigureView::paintReadOut(QPainter& painter, const Rect& frame) {
     if (!cursor_ || read_out_.isEmpty()) return;
     const Colors& colors = theme_.colors();
     painter.setPen(QPen(colors.muted, 1, Qt::DotLine));
     painter.drawLine(QPointF(cursor_->x(), frame.top), QPointF(cursor_->x(), frame.bottom));
-    (void)x, (void)y;
     const QFont font = theme_.smallFont();
     const QFontMetrics metrics(font);
     int names = 0, values = 0;
@@ -205,18 +198,41 @@ void FigureView::paintReadOut(QPainter& painter, const Rect& frame, const AxisMa
 void FigureView::paintSingle(QPainter& painter) {
     const auto range = shownRange();
     if (!range) return;
-    const Rect frame = frameOf(*range);
-    const AxisTicks x_ticks = ticksOf(figure_.x, range->x_min, range->x_max, std::max(3, width() / 90));
     const AxisTicks y_ticks = ticksOf(figure_.y, range->y_min, range->y_max, std::max(3, height() / 64));
-    const PlotArea plot(figure_, frame, *range, x_ticks, y_ticks);
+    const std::vector<LegendEntry> entries = legendEntries(figure_);
+    const LegendSize legend = legendSize(entries);
+    // A legend that would cover most of a small plot is left to the list of models.
+    const bool has_legend = !entries.empty() && legend.width < 0.75 * width() && legend.height < 0.7 * height();
+    constexpr int bearable = 6;  // points of lines under the legend
     std::vector<Shape> shapes;
-    DrawnData drawn;
-    plot.drawGrid(shapes);
-    plot.drawSeries(shapes, drawn);
-    plot.drawAxes(shapes);
-    const double label_base = frame.bottom + 36;
-    shapes.push_back(
-        Text{{0.5 * (frame.left + frame.right), label_base}, axisText(figure_.x), label_size, Anchor::middle, ink});
+    legend_room_ = 0;
+    while (true) {
+        const Rect frame = frameOf(*range);
+        const AxisTicks x_ticks =
+            ticksOf(figure_.x, range->x_min, range->x_max, std::max(3, static_cast<int>(frame.width() / 80)));
+        const PlotArea plot(figure_, frame, *range, x_ticks, y_ticks);
+        DrawnData drawn;
+        shapes.clear();
+        plot.drawGrid(shapes);
+        plot.drawSeries(shapes, drawn);
+        plot.drawAxes(shapes);
+        if (x_ticks.factor != 0) drawFactor(shapes, {frame.right - 40, frame.bottom + 36}, x_ticks.factor);
+        if (!has_legend) break;
+        const double left = frame.right + Space::s;
+        if (legend_room_ > 0) {
+            drawLegend(shapes, entries, {left, frame.top, left + legend.width, frame.top + legend.height});
+            break;
+        }
+        const LegendPlace place = placeLegend(legend, frame, drawn);
+        if (place.covered <= bearable || frame.width() - legend.width < 280) {
+            drawLegend(shapes, entries, place.box);
+            break;
+        }
+        legend_room_ = legend.width + Space::s;
+    }
+    const Rect frame = frameOf(*range);
+    shapes.push_back(Text{
+        {0.5 * (frame.left + frame.right), frame.bottom + 36}, axisText(figure_.x), label_size, Anchor::middle, ink});
     shapes.push_back(Text{{margin + label_size - 3, 0.5 * (frame.top + frame.bottom)},
                           axisText(figure_.y),
                           label_size,
@@ -225,18 +241,30 @@ void FigureView::paintSingle(QPainter& painter) {
                           false,
                           true});
     if (y_ticks.factor != 0) drawFactor(shapes, {frame.left, frame.top - 4}, y_ticks.factor);
-    if (x_ticks.factor != 0) drawFactor(shapes, {frame.right - 40, label_base}, x_ticks.factor);
-    const std::vector<LegendEntry> entries = legendEntries(figure_);
-    const LegendSize size = legendSize(entries);
-    // A legend that would cover most of a small plot is left to the list of models.
-    if (!entries.empty() && size.width < 0.75 * frame.width() && size.height < 0.6 * frame.height())
-        drawLegend(shapes, entries, placeLegend(size, frame, drawn).box);
     paintShapes(painter, shapes, figureInk(theme_));
-    paintReadOut(painter, frame, mapX(*range, frame), mapY(*range, frame));
+    paintReadOut(painter, frame);
+}
+
+// As many columns as make the panels largest in this window; its caption is for paper.
+const Drawing& FigureView::panels() {
+    if (panels_ && panels_size_ == size()) return *panels_;
+    Figure figure = figure_;
+    figure.caption.clear();
+    double best = 0;
+    for (int columns = 1; columns <= std::max(1, static_cast<int>(figure_.panels.size())); ++columns) {
+        figure.columns = columns;
+        Drawing drawing = layoutFigure(figure);
+        const double scale = std::min(width() / drawing.width, height() / drawing.height);
+        if (scale <= best) continue;
+        best = scale;
+        panels_ = std::move(drawing);
+    }
+    panels_size_ = size();
+    return *panels_;
 }
 
 void FigureView::paintPanels(QPainter& painter) {
-    const Drawing drawing = layoutFigure(figure_);
+    const Drawing& drawing = panels();
     const double scale = std::min((width() - 2 * margin) / drawing.width, (height() - 2 * margin) / drawing.height);
     painter.translate(0.5 * (width() - scale * drawing.width), 0.5 * (height() - scale * drawing.height));
     painter.scale(scale, scale);

@@ -10,6 +10,7 @@
 #include "base/figure.h"
 #include "draw/axis_map.h"
 #include "draw/clip.h"
+#include "draw/drawing.h"
 
 namespace searchlight::gui {
 
@@ -49,14 +50,13 @@ protected:
 private:
     bool isSingle() const;
     Rect frameOf(const FigureRange& range) const;
-    AxisMap mapX(const FigureRange& range, const Rect& frame) const;
-    AxisMap mapY(const FigureRange& range, const Rect& frame) const;
     void zoom(double factor, QPointF about);
     void moveBy(QPointF pixels);
     void setCursor(std::optional<QPointF> at);
     void paintSingle(QPainter& painter);
+    const Drawing& panels();
     void paintPanels(QPainter& painter);
-    void paintReadOut(QPainter& painter, const Rect& frame, const AxisMap& x, const AxisMap& y);
+    void paintReadOut(QPainter& painter, const Rect& frame);
 
     Theme& theme_;
     Figure figure_;
@@ -65,6 +65,9 @@ private:
     std::optional<QPointF> cursor_;
     std::optional<QPointF> dragged_from_;
     QStringList read_out_;
+    double legend_room_ = 0;         ///< at the right, where it would hide curves
+    std::optional<Drawing> panels_;  ///< laid out for panels_size_
+    QSize panels_size_;
 };
 
 }  // namespace searchlight::gui

@@ -46,6 +46,7 @@ QComboBox* OptionBar::addChoice(const std::string& option, const QString& title,
     for (int i = 0; i < labels.size(); ++i) box->addItem(labels[i]);
     connect(box, &QComboBox::activated, this, [this, option, title, choices](int index) {
         desk_.workspace.setOption(title, section_, option, choices[static_cast<std::size_t>(index)]);
+        desk_.workspace.endGesture();
     });
     bind(option, box, [box, choices](const ParamValue& value) {
         const auto at = std::ranges::find(choices, std::get<std::string>(value)) - choices.begin();
@@ -71,6 +72,7 @@ QWidget* OptionBar::addNumber(const std::string& option, const QString& title, i
         desk_.workspace.edit(title, QString::fromStdString(section_ + "." + option),
                              [&](State& state) { state.options[section_][option] = value; });
     });
+    connect(box, &QDoubleSpinBox::editingFinished, &desk_.workspace, &Workspace::endGesture);
     bind(option, box, [box](const ParamValue& value) { box->setValue(std::get<double>(value)); });
     return box;
 }
@@ -86,8 +88,10 @@ QAbstractButton* OptionBar::addToggle(const std::string& option, const QString& 
         paint();
         connect(&desk_.theme, &Theme::changed, button, paint);
     }
-    connect(button, &QAbstractButton::toggled, this,
-            [this, option, title](bool on) { desk_.workspace.setOption(title, section_, option, on); });
+    connect(button, &QAbstractButton::toggled, this, [this, option, title](bool on) {
+        desk_.workspace.setOption(title, section_, option, on);
+        desk_.workspace.endGesture();
+    });
     bind(option, button, [button](const ParamValue& value) { button->setChecked(std::get<bool>(value)); });
     return button;
 }

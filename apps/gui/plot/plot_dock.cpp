@@ -69,9 +69,9 @@ private:
         bar->addChoice("view", tr("Plot"),
                        {tr("Profile"), tr("Relative error"), tr("Plane of incidence"), tr("Surface")});
         bar->addChoice("channel", tr("Channel"), {tr("Red"), tr("Green"), tr("Blue"), tr("Luminance")});
-        bar->addChoice("y_scale", tr("Scale of R_d"), {tr("y linear"), tr("y log"), tr("y square root")});
-        bar->addChoice("x_scale", tr("Scale of r"), {tr("x linear"), tr("x log"), tr("x square root")});
-        bar->addChoice("times_radius", tr("Times radius"), {tr("R_d"), tr("R_d · r"), tr("R_d · r²")});
+        y_scale_ = bar->addChoice("y_scale", tr("Scale of R_d"), {tr("y linear"), tr("y log"), tr("y square root")});
+        x_scale_ = bar->addChoice("x_scale", tr("Scale of r"), {tr("x linear"), tr("x log"), tr("x square root")});
+        times_radius_ = bar->addChoice("times_radius", tr("Times radius"), {tr("R_d"), tr("R_d · r"), tr("R_d · r²")});
         bar->addNumber("angle_deg", tr("Angle of incidence"), 0, 5);
         bar->addChoice("walks", tr("Reference"),
                        {tr("No reference"), tr("10⁵ walks"), tr("10⁶ walks"), tr("10⁷ walks")});
@@ -122,6 +122,10 @@ private:
         } catch (const Error& error) {
             return failed(error);
         }
+        using View = LiveRequest::View;
+        y_scale_->setEnabled(request.view == View::profile || request.view == View::plane);
+        x_scale_->setEnabled(request.view == View::profile || request.view == View::error);
+        times_radius_->setEnabled(request.view == View::profile);
         std::vector<std::string> ids;
         for (const LiveModel& model : request.models) ids.push_back(model.model.id);
         desk_.tasks.start(
@@ -186,6 +190,7 @@ private:
     Desk& desk_;
     std::shared_ptr<LanePlot> lane_plot_;
     FigureView* view_ = nullptr;
+    QComboBox *y_scale_ = nullptr, *x_scale_ = nullptr, *times_radius_ = nullptr;
     QLabel* status_ = nullptr;
     bool drawing_ = false, pending_ = false;
 };

@@ -1,6 +1,7 @@
 #include "gui/spheres/spheres_dock.h"
 
 #include <QComboBox>
+#include <QDockWidget>
 #include <QLabel>
 #include <QTimer>
 #include <QVBoxLayout>
@@ -10,6 +11,7 @@
 #include <memory>
 #include <optional>
 
+#include "gui/models/model_files.h"
 #include "gui/models/model_status.h"
 #include "gui/plot/option_bar.h"
 #include "gui/spheres/sphere_view.h"
@@ -112,15 +114,17 @@ public:
     }
 
 protected:
-    // Walks cost both cores: none for what nobody sees.
+    // Walks cost both cores: none for what nobody sees. A dock behind another tab counts as visible for its widgets.
     void showEvent(QShowEvent* event) override {
         QWidget::showEvent(event);
-        refresh();
+        if (auto* dock = qobject_cast<QDockWidget*>(parentWidget()))
+            connect(dock, &QDockWidget::visibilityChanged, this, &SpheresDock::setSeen, Qt::UniqueConnection);
+        else
+            setSeen(true);
     }
     void hideEvent(QHideEvent* event) override {
         QWidget::hideEvent(event);
-        desk_.tasks.cancel(kLane, "spheres");
-        working_ = false;
+        setSeen(false);
     }
 
 private:
@@ -142,9 +146,17 @@ private:
         return request;
     }
 
+    void setSeen(bool seen) {
+        if (seen == seen_) return;
+        seen_ = seen;
+        if (seen) return refresh();
+        desk_.tasks.cancel(kLane, "spheres");
+        working_ = pending_ = false;
+    }
+
     // As in the plot: a step that has begun is shown before the next wish begins.
     void refresh() {
-        if (!isVisible()) return;
+        if (!seen_) return;
         if (working_) {
             pending_ = true;
             return;
@@ -200,9 +212,8 @@ private:
             return largest;
         };
         if (numbers.error) ModelStatus::of(desk_.workspace).set(id, *numbers.error);
-        QString name = QString::fromStdString(id).section(QLatin1Char('/'), -1);
         view_->setPanels(
-            {{name, tr("%1 samples per cell").arg(numbers.samples), shown.model},
+            {{modelTitle(id), tr("%1 samples per cell").arg(numbers.samples), shown.model},
              {tr("Random walks"), tr("%1 walks").arg(countText(static_cast<double>(numbers.walks))), shown.reference},
              {tr("Difference"), tr("blue: too dark, orange: too bright"), shown.difference}},
             numbers.error ? QString::fromUtf8(numbers.error->what()) : tr("No light yet"));
@@ -231,7 +242,7 @@ private:
     SphereView* view_ = nullptr;
     QLabel* status_ = nullptr;
     QTimer resize_;
-    bool working_ = false, pending_ = false;
+    bool seen_ = false, working_ = false, pending_ = false;
 };
 
 }  // namespace
@@ -253,7 +264,7 @@ std::vector<Param> spheresOptions() {
          .unit = "%",
          .min = 1,
          .max = 1000,
-         .value = 50.0,
+         .value = 100.0,
          .doc = "the difference, of the walks' mean, at the ends of its scale"},
         {.name = "running", .type = ParamType::toggle, .value = true, .doc = "both sides go on"},
     };
