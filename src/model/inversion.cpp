@@ -143,4 +143,23 @@ Inversion invert(Evaluator& evaluator, const Model& model, const ParamValues& pa
     return result;
 }
 
+InversionTarget inversionTarget(Evaluator& evaluator, const Model& model, const ParamValues& parameters,
+                                const Medium& medium) {
+    // Below it ld is longer than anything that is rendered, and Rdr does not see it.
+    constexpr double least_s = 1e-4;
+    InversionTarget target{
+        .eta = medium.eta, .g = (medium.g.r + medium.g.g + medium.g.b) / 3, .channels = medium.channels};
+    const Rgb alpha = medium.alphaPrime(), sigma_tp = medium.sigmaTp();
+    evaluator.set(medium, parameters);
+    const Rgb Rdr =
+        hasDiffuseReflectance(model) ? evaluator.diffuseReflectance(alpha) : totalRd(evaluator, model, medium);
+    for (int c = 0; c < Rgb::channels; ++c) {
+        const double s = std::clamp(std::sqrt(1 - alpha[c]), least_s, 1.0);
+        // The relation of sigma_t' and ld is its own inverse.
+        target.ld_mm[c] = reducedExtinction(s, sigma_tp[c], model.file.grosjean);
+        target.Rdr[c] = std::isfinite(Rdr[c]) ? std::clamp(Rdr[c], 1e-4, 1.0) : 1e-4;
+    }
+    return target;
+}
+
 }  // namespace searchlight

@@ -30,4 +30,10 @@ struct Inversion {
 Inversion invert(Evaluator& evaluator, const Model& model, const ParamValues& parameters,
                  const InversionTarget& target);
 
+/// The target that inverts to this medium: its Rdr by the model, and ld with the model's D. Channels that do not
+/// scatter, or do not absorb, have the nearest that an inversion takes. g is the mean of the channels, which a target
+/// has one of.
+InversionTarget inversionTarget(Evaluator& evaluator, const Model& model, const ParamValues& parameters,
+                                const Medium& medium);
+
 }  // namespace searchlight

@@ -49,7 +49,7 @@ public:
     const QString& path() const { return path_; }
     bool isModified() const { return !undo_.isClean(); }
 
-signals:
+Q_SIGNALS:
     /// state() is another one. `change`: what differs.
     void changed(searchlight::gui::Change change);
     void modelFileChanged(const QString& id);

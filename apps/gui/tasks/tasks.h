@@ -71,7 +71,7 @@ public:
     /// Called on the lane's thread before it ends, so that what a lane keeps on its engine goes before the engine.
     void atLaneEnd(const std::string& lane, std::function<void()> clean);
 
-signals:
+Q_SIGNALS:
     /// status() or busy() changed; at most some twenty times a second for progress.
     void statusChanged();
     /// A task without a `failed` of its own threw.

@@ -2,7 +2,6 @@
 // renderers.
 #pragma once
 
-#include <QImage>
 #include <map>
 #include <memory>
 #include <optional>
@@ -10,7 +9,6 @@
 
 #include "base/image.h"
 #include "gui/tasks/tasks.h"
-#include "io/image_file.h"
 #include "job/subject.h"
 #include "render/renderer.h"
 
@@ -69,18 +67,5 @@ private:
     std::map<std::string, Side> sides_;
     std::map<std::string, LoadedFile> files_;  ///< models that OpenGL compiled, by id: a slider must not compile again
 };
-
-/// Where a linear picture goes before it is painted: exposure, curve and channel. Premultiplied, `image`'s size.
-QImage shownImage(const Image& image, const ToneMap& tone_map, const std::string& channel, int threads);
-
-/// (a - b) over the mean luminance of b, in a diverging scale whose ends are -scale and +scale; transparent where
-/// neither covers. Both have one size.
-QImage differenceImage(const Image& a, const Image& b, double scale, const std::string& channel, int threads);
-
-/// The colour of a difference: -1 is blue, 0 neutral, 1 orange.
-QRgb differenceColor(double value);
-
-/// Relative root mean square of (a - b) over the mean of b where both cover, per luminance; NaN when b is dark.
-double relativeDifference(const Image& a, const Image& b);
 
 }  // namespace searchlight::gui

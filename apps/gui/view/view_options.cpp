@@ -46,7 +46,6 @@ std::vector<Param> viewOptions() {
          .max = 1000,
          .value = 20.0,
          .doc = "the difference, of the reference picture's mean, at the ends of the scale"},
-        {.name = "turntable", .type = ParamType::toggle, .value = false, .doc = "the camera goes round by itself"},
     };
 }
 

@@ -22,7 +22,7 @@ public:
     void post(Level level, const QString& text) { emit posted(level, text); }
     void post(const Error& error) { emit posted(Level::error, QString::fromUtf8(error.what())); }
 
-signals:
+Q_SIGNALS:
     void posted(searchlight::gui::Notices::Level level, const QString& text);
 };
 
@@ -36,7 +36,7 @@ public:
     /// Something became visible: "picture", "curves", "reference".
     void shown(const QString& what) { emit happened(what); }
 
-signals:
+Q_SIGNALS:
     void happened(const QString& what);
 };
 

@@ -1,6 +1,8 @@
 #include "gui/window/main_window.h"
 
 #include <QAction>
+#include <QApplication>
+#include <QClipboard>
 #include <QCloseEvent>
 #include <QDockWidget>
 #include <QDragEnterEvent>
@@ -12,13 +14,21 @@
 #include <QSettings>
 #include <QStatusBar>
 #include <QToolBar>
+#include <QToolButton>
+#include <QVBoxLayout>
 
+#include "geometry/object.h"
+#include "gui/state/command_line.h"
 #include "gui/state/open_path.h"
 #include "gui/view/object_view.h"
+#include "gui/view/save_picture.h"
+#include "gui/window/dock_title.h"
 #include "gui/window/docks.h"
 #include "gui/window/notice_bar.h"
 #include "gui/window/task_bar.h"
 #include "gui/window/theme.h"
+#include "gui/window/view_bar.h"
+#include "gui/window/welcome.h"
 
 namespace searchlight::gui {
 
@@ -40,18 +50,29 @@ MainWindow::MainWindow(Desk& desk, QString settings_file, QWidget* parent)
     setAcceptDrops(true);
     resize(1440, 900);
 
-    view_ = new ObjectView(desk_, this);
-    setCentralWidget(view_);
-    notices_ = new NoticeBar(desk_, view_);
+    auto* middle = new QWidget(this);
+    auto* column = new QVBoxLayout(middle);
+    column->setContentsMargins(0, 0, 0, 0);
+    column->setSpacing(0);
+    view_ = new ObjectView(desk_, middle);
+    column->addWidget(new ViewBar(desk_, middle));
+    column->addWidget(view_, 1);
+    setCentralWidget(middle);
+    new NoticeBar(desk_, view_);
     makeDocks();
-    makeMenus();
+    makeFileMenu();
+    makeViewMenu();
     makeToolBar();
-    makeStatusBar();
+    statusBar()->addPermanentWidget(new TaskBar(desk_, this));
+    statusBar()->setSizeGripEnabled(false);
     placeDocks();
     restoreLayout();
     connect(&desk_.workspace, &Workspace::fileChanged, this, &MainWindow::refreshTitle);
     connect(&desk_.tasks, &Tasks::taskFailed, this,
             [this](const QString&, const Error& error) { desk_.notices.post(error); });
+    connect(&desk_.theme, &Theme::changed, this, [this] {
+        for (const auto& [action, name] : icons_) action->setIcon(desk_.theme.icon(name));
+    });
     refreshTitle();
 }
 
@@ -63,6 +84,7 @@ void MainWindow::makeDocks() {
         dock->setObjectName(QString("dock.") + entry.id);
         dock->setAccessibleName(tr(entry.title));
         dock->setAccessibleDescription(tr(entry.doc));
+        dock->setTitleBarWidget(new DockTitle(desk_.theme, dock));
         QWidget* body = entry.make(desk_);
         body->setAccessibleName(tr(entry.title));
         dock->setWidget(body);
@@ -107,16 +129,32 @@ QDockWidget* MainWindow::dock(const QString& id) const {
     return nullptr;
 }
 
-void MainWindow::makeMenus() {
+void MainWindow::makeFileMenu() {
     QMenu* file = menuBar()->addMenu(tr("&File"));
-    file->addAction(tr("&Open..."), QKeySequence::Open, this, [this] {
-        const QStringList paths = QFileDialog::getOpenFileNames(this, tr("Open"), {}, openFilter());
-        openPaths(paths);
-    });
-    file->addAction(tr("&Save workspace"), QKeySequence::Save, this, &MainWindow::save);
-    file->addAction(tr("Save workspace &as..."), QKeySequence::SaveAs, this, [this] { saveTo({}); });
+    const auto add = [&](QMenu* menu, const char* icon, const QString& text, const QKeySequence& keys, auto&& call) {
+        QAction* action = menu->addAction(text, keys, this, call);
+        if (*icon) {
+            action->setIcon(desk_.theme.icon(icon));
+            action->setIconVisibleInMenu(false);
+            icons_.emplace_back(action, icon);
+        }
+        return action;
+    };
+    QAction* open = add(file, "open", tr("&Open..."), QKeySequence::Open,
+                        [this] { openPaths(QFileDialog::getOpenFileNames(this, tr("Open"), {}, openFilter())); });
+    QMenu* objects = file->addMenu(tr("Built-in &object"));
+    for (const std::string& id : builtInObjects())
+        objects->addAction(QString::fromStdString(id).replace('_', ' '), this, [this, id] {
+            desk_.workspace.edit(tr("Object"), {}, [&](State& state) { state.scene.object = id; });
+        });
+    QAction* save = add(file, "save", tr("&Save workspace"), QKeySequence::Save, [this] { this->save(); });
+    add(file, "", tr("Save workspace &as..."), QKeySequence::SaveAs, [this] { saveTo({}); });
     file->addSeparator();
-    file->addAction(tr("&Quit"), QKeySequence::Quit, this, &QWidget::close);
+    QAction* picture = add(file, "picture", tr("Save &picture..."), QKeySequence("Ctrl+P"), [this] { savePicture(); });
+    QAction* command =
+        add(file, "terminal", tr("&Copy as command line"), QKeySequence("Ctrl+Shift+C"), [this] { copyCommand(); });
+    file->addSeparator();
+    add(file, "", tr("&Quit"), QKeySequence::Quit, [this] { close(); });
 
     QMenu* edit = menuBar()->addMenu(tr("&Edit"));
     QAction* undo = desk_.workspace.undoStack().createUndoAction(this, tr("Undo"));
@@ -124,16 +162,159 @@ void MainWindow::makeMenus() {
     QAction* redo = desk_.workspace.undoStack().createRedoAction(this, tr("Redo"));
     redo->setShortcuts({QKeySequence(QKeySequence::Redo), QKeySequence("Ctrl+Y")});
     edit->addActions({undo, redo});
+    for (const auto& [action, icon] : {std::pair{undo, "undo"}, std::pair{redo, "redo"}}) {
+        action->setIcon(desk_.theme.icon(icon));
+        action->setIconVisibleInMenu(false);
+        icons_.emplace_back(action, icon);
+    }
+    for (QAction* each : {open, save, undo, redo, picture, command}) tools_.push_back(each);
+}
 
+void MainWindow::makeViewMenu() {
     QMenu* view = menuBar()->addMenu(tr("&View"));
     for (QDockWidget* each : docks_) view->addAction(each->toggleViewAction());
     view->addSeparator();
+    QAction* frame = view->addAction(tr("&Frame the object"), QKeySequence("F"), view_, &ObjectView::frame);
+    frame->setShortcutContext(Qt::WidgetShortcut);
+    view_->addAction(frame);
     view->addAction(tr("&Reset layout"), this, &MainWindow::placeDocks);
+    QMenu* themes = view->addMenu(tr("&Theme"));
+    for (const char* name : {"Dark", "Light", "System"})
+        themes->addAction(tr(name), this, [this, name] { setTheme(QString(name).toLower()); });
+    QMenu* help = menuBar()->addMenu(tr("&Help"));
+    help->addAction(tr("&Welcome"), this, &MainWindow::showWelcome);
+    help->addAction(tr("&Keys"), QKeySequence("F1"), this, &MainWindow::showKeys);
+    help->addAction(tr("&About"), this, &MainWindow::about);
 }
 
-void MainWindow::makeToolBar() {}
+void MainWindow::makeToolBar() {
+    QToolBar* bar = addToolBar(tr("Tools"));
+    bar->setObjectName("tools");
+    bar->setMovable(false);
+    bar->setIconSize({18, 18});
+    for (std::size_t i = 0; i < tools_.size(); ++i) {
+        if (i == 2 || i == 4) bar->addSeparator();
+        bar->addAction(tools_[i]);
+    }
+    auto* space = new QWidget(bar);
+    space->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
+    bar->addWidget(space);
+    for (std::size_t i = 0; i < docks_.size(); ++i) {
+        QAction* action = docks_[i]->toggleViewAction();
+        action->setIcon(desk_.theme.icon(docks()[i].icon));
+        action->setIconVisibleInMenu(false);
+        icons_.emplace_back(action, docks()[i].icon);
+        bar->addAction(action);
+    }
+    bar->addSeparator();
+    QAction* theme = bar->addAction(desk_.theme.icon("theme"), tr("Light or dark"), this,
+                                    [this] { setTheme(desk_.theme.isDark() ? "light" : "dark"); });
+    icons_.emplace_back(theme, "theme");
+    for (QToolButton* button : bar->findChildren<QToolButton*>()) {
+        button->setFocusPolicy(Qt::TabFocus);
+        if (button->defaultAction()) button->setAccessibleName(button->defaultAction()->text().remove('&'));
+    }
+}
 
-void MainWindow::makeStatusBar() { statusBar()->addPermanentWidget(new TaskBar(desk_, this)); }
+void MainWindow::showDock(const QString& id) {
+    if (QDockWidget* found = dock(id)) {
+        found->show();
+        found->raise();
+        found->widget()->setFocus();
+    }
+}
+
+void MainWindow::showWelcome() {
+    if (!welcome_) {
+        welcome_ = new Welcome(desk_, view_);
+        connect(welcome_, &Welcome::closed, this, [this] { closeWelcome(); });
+        connect(welcome_, &Welcome::chosen, this, [this](const QString& way) {
+            closeWelcome();
+            begin(way);
+        });
+    }
+    welcome_->show();
+    welcome_->raise();
+}
+
+void MainWindow::closeWelcome() {
+    if (welcome_) welcome_->deleteLater();
+    welcome_ = nullptr;
+    if (settings_file_.isEmpty()) return;
+    QSettings settings(settings_file_, QSettings::IniFormat);
+    settings.setValue("welcomed", true);
+}
+
+void MainWindow::begin(const QString& way) {
+    if (way != "compare") return showDock(way);
+    desk_.workspace.edit(tr("Compare with the reference"), {}, [](State& state) {
+        state.options["view"]["compare"] = std::string("wipe");
+        state.options["view"]["against"] = std::string("reference");
+    });
+    showDock("plot");
+}
+
+void MainWindow::savePicture() {
+    const ViewPicture& shown = view_->pictures().shown();
+    if (!shown.linear_a) return desk_.notices.post(Notices::Level::info, tr("There is no picture yet."));
+    const QString path =
+        QFileDialog::getSaveFileName(this, tr("Save picture"), "picture.png", tr("Pictures (*.png *.exr *.hdr *.pfm)"));
+    if (path.isEmpty()) return;
+    writePicture(desk_, shown, path, this);
+}
+
+void MainWindow::copyCommand() {
+    const QSize size = view_->size() * view_->devicePixelRatioF();
+    QApplication::clipboard()->setText(
+        QString::fromStdString(commandLine(desk_.workspace.state(), "picture.png", size.width(), size.height())));
+    desk_.notices.post(Notices::Level::info, tr("The command that makes this picture is in the clipboard."));
+}
+
+void MainWindow::setTheme(const QString& name) {
+    desk_.theme.apply(name == "light"    ? Theme::Mode::light
+                      : name == "system" ? Theme::Mode::system
+                                         : Theme::Mode::dark);
+    if (settings_file_.isEmpty()) return;
+    QSettings settings(settings_file_, QSettings::IniFormat);
+    settings.setValue("theme", name);
+}
+
+QString MainWindow::rememberedTheme(const QString& settings_file) {
+    if (settings_file.isEmpty()) return "dark";
+    return QSettings(settings_file, QSettings::IniFormat).value("theme", "dark").toString();
+}
+
+void MainWindow::showKeys() {
+    auto* box = new QMessageBox(QMessageBox::NoIcon, tr("Keys"), {}, QMessageBox::Close, this);
+    box->setAttribute(Qt::WA_DeleteOnClose);
+    QString rows;
+    const auto row = [&](const QString& keys, const QString& what) {
+        rows += QString("<tr><td style=\"padding-right: 24px\"><b>%1</b></td><td>%2</td></tr>").arg(keys, what);
+    };
+    row(tr("Drag, arrows"), tr("turn the object"));
+    row(tr("Right drag, Ctrl + arrows"), tr("turn the light"));
+    row(tr("Middle drag, Shift + arrows"), tr("move the object"));
+    row(tr("Wheel, + and -"), tr("zoom"));
+    row(tr("F"), tr("frame the object"));
+    row(tr("Alt + left and right"), tr("move the wipe"));
+    for (QDockWidget* each : docks_)
+        row(each->toggleViewAction()->shortcut().toString(), tr("show or hide %1").arg(each->windowTitle()));
+    row("Ctrl+Z, Ctrl+Shift+Z", tr("undo, redo: everything but the layout"));
+    row("Ctrl+Shift+C", tr("copy as command line"));
+    row("Ctrl+P", tr("save picture"));
+    box->setText("<table>" + rows + "</table>");
+    box->open();
+}
+
+void MainWindow::about() {
+    auto* box = new QMessageBox(QMessageBox::NoIcon, tr("About Searchlight"), {}, QMessageBox::Close, this);
+    box->setAttribute(Qt::WA_DeleteOnClose);
+    box->setIconPixmap(QIcon(":/searchlight.svg").pixmap(64, 64));
+    box->setText(tr("<b>Searchlight %1</b><br>A laboratory for BSSRDFs.<br>Apache-2.0; Qt under the LGPL. Nothing is "
+                    "sent anywhere.")
+                     .arg(QApplication::applicationVersion()));
+    box->open();
+}
 
 void MainWindow::refreshTitle() {
     const QString path = desk_.workspace.path();
@@ -175,8 +356,9 @@ bool MainWindow::mayDiscard() {
 }
 
 void MainWindow::restoreLayout() {
-    if (settings_file_.isEmpty()) return;
+    if (settings_file_.isEmpty()) return showWelcome();
     const QSettings settings(settings_file_, QSettings::IniFormat);
+    if (!settings.value("welcomed").toBool()) showWelcome();
     restoreGeometry(settings.value("geometry").toByteArray());
     restoreState(settings.value("layout").toByteArray(), layout_version);
 }

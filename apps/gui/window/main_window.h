@@ -3,16 +3,18 @@
 
 #include <QMainWindow>
 #include <QStringList>
+#include <utility>
+#include <vector>
 
 #include "gui/window/desk.h"
 
-class QActionGroup;
-class QLabel;
+class QAction;
 
 namespace searchlight::gui {
 
 class ObjectView;
 class NoticeBar;
+class Welcome;
 
 class MainWindow : public QMainWindow {
     Q_OBJECT
@@ -22,11 +24,16 @@ public:
     explicit MainWindow(Desk& desk, QString settings_file = {}, QWidget* parent = nullptr);
     ~MainWindow() override;
 
+    /// "dark", "light" or "system", as last chosen; dark at first.
+    static QString rememberedTheme(const QString& settings_file);
+
     /// Workspaces, scenes, shapes, pictures of light, models: what a path is, its ending says. Faults are notices.
     void openPaths(const QStringList& paths);
 
     /// The dock of that id (docks.cpp); null: none.
     QDockWidget* dock(const QString& id) const;
+
+    ObjectView& view() { return *view_; }
 
 protected:
     void closeEvent(QCloseEvent* event) override;
@@ -35,9 +42,18 @@ protected:
 
 private:
     void makeDocks();
-    void makeMenus();
+    void makeFileMenu();
+    void makeViewMenu();
     void makeToolBar();
-    void makeStatusBar();
+    void showDock(const QString& id);
+    void begin(const QString& way);
+    void savePicture();
+    void copyCommand();
+    void setTheme(const QString& name);
+    void about();
+    void showKeys();
+    void showWelcome();
+    void closeWelcome();
     void placeDocks();
     void refreshTitle();
     bool mayDiscard();
@@ -48,8 +64,10 @@ private:
     Desk& desk_;
     QString settings_file_;
     ObjectView* view_ = nullptr;
-    NoticeBar* notices_ = nullptr;
-    std::vector<QDockWidget*> docks_;  ///< in the order of docks()
+    Welcome* welcome_ = nullptr;
+    std::vector<QAction*> tools_;                      ///< of the tool bar, from the left
+    std::vector<std::pair<QAction*, QString>> icons_;  ///< drawn again when the theme changes
+    std::vector<QDockWidget*> docks_;                  ///< in the order of docks()
 };
 
 }  // namespace searchlight::gui
