@@ -26,7 +26,7 @@ public:
     /// The model's file was written: whoever keeps something of it starts anew.
     void fileWritten(const std::string& id) { emit written(QString::fromStdString(id)); }
 
-signals:
+Q_SIGNALS:
     void changed();
     void written(const QString& id);
 
