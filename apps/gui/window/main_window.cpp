@@ -115,7 +115,7 @@ void MainWindow::placeDocks() {
         dock->raise();
         if (area == Qt::BottomDockWidgetArea) {
             bottoms << dock;
-            heights << std::clamp(height() / 3, 240, 360);
+            heights << std::clamp(height() / 3, 200, 360);
         } else {
             sides << dock;
             // Room for code on the right, where there is some.
