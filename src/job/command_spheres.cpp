@@ -31,17 +31,6 @@ struct Pictures {
     Image model, model_error, reference, reference_error;
 };
 
-// Stops that bring the brightest 2 % of the reference's pixels to 0.8.
-double suitedExposure(const Image& image) {
-    std::vector<float> brightest;
-    for (const Rgba& pixel : image.pixels)
-        if (pixel.a > 0) brightest.push_back(std::max({pixel.r, pixel.g, pixel.b}));
-    if (brightest.empty()) return 0;
-    const auto place = brightest.begin() + static_cast<std::ptrdiff_t>(brightest.size() * 98 / 100);
-    std::ranges::nth_element(brightest, place);
-    return *place > 0 ? std::log2(0.8 / static_cast<double>(*place)) : 0;
-}
-
 Json estimateJson(const Estimate& estimate) { return {{"mean", estimate.mean}, {"stderr", estimate.standard_error}}; }
 
 std::string percent(double value) { return fmt::format("{:+.2f} %", 100 * value); }

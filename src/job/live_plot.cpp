@@ -5,11 +5,16 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "base/text.h"
+#include "job/curves.h"
+#include "job/model_stamp.h"
+#include "job/plane_views.h"
 #include "model/plane.h"
-#include "model/sum_model.h"
 #include "plot/oblique.h"
 #include "plot/slice.h"
 
@@ -25,19 +30,6 @@ using Clock = std::chrono::steady_clock;
 
 double msSince(Clock::time_point begin) {
     return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-}
-
-// Changes when a file of the model does.
-std::string stampOf(const std::string& id) {
-    std::string stamp;
-    for (const std::string& part : partNames(id)) {
-        std::error_code failed;
-        const auto time = std::filesystem::last_write_time(part, failed);
-        if (failed) continue;
-        stamp +=
-            fmt::format("{} {} {};", part, time.time_since_epoch().count(), std::filesystem::file_size(part, failed));
-    }
-    return stamp;
 }
 
 // What walks depend on besides sigma_a and sigma_s of the medium.
@@ -70,7 +62,40 @@ void recolor(std::vector<Series>& series, const std::vector<int>& colors) {
 
 }  // namespace
 
-Medium LivePlot::mediumOf(const SceneMaterial& material, const SceneModel& model) {
+struct LivePlot::Impl {
+    explicit Impl(Engine& engine) : engine_(engine) {}
+
+    LivePlotResult draw(const LiveRequest& request, LiveDetail detail);
+    bool isSlow(const LiveRequest& request) const;
+    bool improve(const LiveRequest& request, Observer& observer);
+
+    struct Kept {
+        LoadedModel loaded;
+        std::string stamp;  ///< of its files; empty: it ships
+    };
+    /// Reference walks of one medium that no table answers for.
+    struct Walked {
+        std::string key;
+        ReferenceRun run;
+        double walks = 0;
+    };
+
+    LoadedModel& model(const LiveModel& slot, std::size_t place);
+    Medium mediumOf(const SceneMaterial& material, const SceneModel& model);
+    std::vector<double> edgesOf(const LiveRequest& request, const Medium& medium) const;
+    std::optional<ReferenceRun> whiteRun(const LiveRequest& request, const Medium& medium);
+    std::optional<ReferenceRun> knownRun(const LiveRequest& request, const Medium& medium);
+    bool improveWhite(const LiveRequest& request, const Medium& medium, Observer& observer);
+    void drawProfile(const LiveRequest& request, const Medium& medium, LiveDetail detail, LivePlotResult& result);
+    void drawPlane(const LiveRequest& request, const Medium& medium, LiveDetail detail, LivePlotResult& result);
+
+    Engine& engine_;
+    std::map<std::string, Kept> models_;                     ///< by place and id
+    std::vector<std::shared_ptr<const WhiteTable>> tables_;  ///< the last used comes last
+    std::optional<Walked> walked_;
+};
+
+Medium LivePlot::Impl::mediumOf(const SceneMaterial& material, const SceneModel& model) {
     if (!material.inverted()) return resolveMaterial(material).medium;
     Job job;
     job.scene.material = material;
@@ -78,8 +103,8 @@ Medium LivePlot::mediumOf(const SceneMaterial& material, const SceneModel& model
     return subjectOf(job, engine_).medium;
 }
 
-LoadedModel& LivePlot::model(const LiveModel& slot, std::size_t place) {
-    const std::string key = fmt::format("{} {}", place, slot.model.id), stamp = stampOf(slot.model.id);
+LoadedModel& LivePlot::Impl::model(const LiveModel& slot, std::size_t place) {
+    const std::string key = fmt::format("{} {}", place, slot.model.id), stamp = modelStamp(slot.model.id);
     auto found = models_.find(key);
     if (found != models_.end() && found->second.stamp != stamp) {
         models_.erase(found);
@@ -103,11 +128,11 @@ LoadedModel& LivePlot::model(const LiveModel& slot, std::size_t place) {
     return loaded;
 }
 
-std::vector<double> LivePlot::edgesOf(const LiveRequest& request, const Medium& medium) const {
+std::vector<double> LivePlot::Impl::edgesOf(const LiveRequest& request, const Medium& medium) const {
     return plotEdges(medium, request.radii_max_mm, request.bins);
 }
 
-std::optional<ReferenceRun> LivePlot::whiteRun(const LiveRequest& request, const Medium& medium) {
+std::optional<ReferenceRun> LivePlot::Impl::whiteRun(const LiveRequest& request, const Medium& medium) {
     ReferenceRun run;
     run.medium = medium;
     run.angle_deg = request.angle_deg;
@@ -129,7 +154,7 @@ std::optional<ReferenceRun> LivePlot::whiteRun(const LiveRequest& request, const
     return run;
 }
 
-std::optional<ReferenceRun> LivePlot::knownRun(const LiveRequest& request, const Medium& medium) {
+std::optional<ReferenceRun> LivePlot::Impl::knownRun(const LiveRequest& request, const Medium& medium) {
     if (request.walks <= 0) return {};
     if (!isPlane(request))
         if (auto run = whiteRun(request, medium)) return run;
@@ -137,7 +162,7 @@ std::optional<ReferenceRun> LivePlot::knownRun(const LiveRequest& request, const
     return {};
 }
 
-bool LivePlot::improveWhite(const LiveRequest& request, const Medium& medium, Observer& observer) {
+bool LivePlot::Impl::improveWhite(const LiveRequest& request, const Medium& medium, Observer& observer) {
     for (int c = 0; c < medium.channels; ++c)
         if (medium.sigma_s[c] > kWhiteLargestAlbedo * medium.sigmaT()[c]) return false;
     for (const double walks : {std::min(kFewWalks, request.walks), request.walks})
@@ -161,7 +186,7 @@ bool LivePlot::improveWhite(const LiveRequest& request, const Medium& medium, Ob
     return false;
 }
 
-bool LivePlot::improve(const LiveRequest& request, Observer& observer) {
+bool LivePlot::Impl::improve(const LiveRequest& request, Observer& observer) {
     if (request.walks <= 0) return false;
     const Medium medium = mediumOf(request.material, request.models.empty() ? SceneModel{} : request.models[0].model);
     if (!isPlane(request)) {
@@ -189,7 +214,7 @@ bool LivePlot::improve(const LiveRequest& request, Observer& observer) {
     return true;
 }
 
-bool LivePlot::isSlow(const LiveRequest& request) {
+bool LivePlot::Impl::isSlow(const LiveRequest& request) const {
     if (isPlane(request)) return true;
     return std::ranges::any_of(request.models, [&](const LiveModel& slot) {
         const auto found =
@@ -200,8 +225,8 @@ bool LivePlot::isSlow(const LiveRequest& request) {
     });
 }
 
-void LivePlot::drawProfile(const LiveRequest& request, const Medium& medium, LiveDetail detail,
-                           LivePlotResult& result) {
+void LivePlot::Impl::drawProfile(const LiveRequest& request, const Medium& medium, LiveDetail detail,
+                                 LivePlotResult& result) {
     const auto begin = Clock::now();
     const std::vector<double> edges = edgesOf(request, medium);
     const auto run = knownRun(request, medium);
@@ -252,7 +277,8 @@ void LivePlot::drawProfile(const LiveRequest& request, const Medium& medium, Liv
     if (solo.empty()) recolor(result.figure.series, colors);
 }
 
-void LivePlot::drawPlane(const LiveRequest& request, const Medium& medium, LiveDetail detail, LivePlotResult& result) {
+void LivePlot::Impl::drawPlane(const LiveRequest& request, const Medium& medium, LiveDetail detail,
+                               LivePlotResult& result) {
     const bool slice = request.view == LiveRequest::View::slice, coarse = detail == LiveDetail::coarse;
     const auto begin = Clock::now();
     const auto run = knownRun(request, medium);
@@ -307,7 +333,7 @@ void LivePlot::drawPlane(const LiveRequest& request, const Medium& medium, LiveD
     recolor(result.figure.series, colors);
 }
 
-LivePlotResult LivePlot::draw(const LiveRequest& request, LiveDetail detail) {
+LivePlotResult LivePlot::Impl::draw(const LiveRequest& request, LiveDetail detail) {
     LivePlotResult result;
     const Medium medium = mediumOf(request.material, request.models.empty() ? SceneModel{} : request.models[0].model);
     if (isPlane(request))
@@ -317,5 +343,13 @@ LivePlotResult LivePlot::draw(const LiveRequest& request, LiveDetail detail) {
     if (request.walks > 0 && result.reference.empty()) result.reference_note = "The reference is being walked.";
     return result;
 }
+
+LivePlot::LivePlot(Engine& engine) : impl_(std::make_unique<Impl>(engine)) {}
+LivePlot::~LivePlot() = default;
+
+LivePlotResult LivePlot::draw(const LiveRequest& request, LiveDetail detail) { return impl_->draw(request, detail); }
+bool LivePlot::isSlow(const LiveRequest& request) { return impl_->isSlow(request); }
+bool LivePlot::improve(const LiveRequest& request, Observer& observer) { return impl_->improve(request, observer); }
+void LivePlot::forgetModels() { impl_->models_.clear(); }
 
 }  // namespace searchlight

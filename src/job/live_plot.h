@@ -2,16 +2,16 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
-#include <optional>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
 #include "base/figure.h"
 #include "base/observer.h"
-#include "job/curves.h"
-#include "job/plane_views.h"
+#include "job/engine.h"
+#include "plot/channel.h"
+#include "scene/scene.h"
 
 namespace searchlight {
 
@@ -66,7 +66,8 @@ enum class LiveDetail { coarse, fine };
 /// sigma_s walks nothing. One thread at a time.
 class LivePlot {
 public:
-    explicit LivePlot(Engine& engine) : engine_(engine) {}
+    explicit LivePlot(Engine& engine);
+    ~LivePlot();
 
     /// With the reference that is known so far: makes none. Errors of models are in the result; throws an input Error
     /// for a request that makes no sense, and those of materials.
@@ -80,33 +81,11 @@ public:
     bool improve(const LiveRequest& request, Observer& observer);
 
     /// Forgets what was compiled: the context is gone, or a file has changed.
-    void forgetModels() { models_.clear(); }
+    void forgetModels();
 
 private:
-    struct Kept {
-        LoadedModel loaded;
-        std::string stamp;  ///< of its files; empty: it ships
-    };
-    /// Reference walks of one medium that no table answers for.
-    struct Walked {
-        std::string key;
-        ReferenceRun run;
-        double walks = 0;
-    };
-
-    LoadedModel& model(const LiveModel& slot, std::size_t place);
-    Medium mediumOf(const SceneMaterial& material, const SceneModel& model);
-    std::vector<double> edgesOf(const LiveRequest& request, const Medium& medium) const;
-    std::optional<ReferenceRun> whiteRun(const LiveRequest& request, const Medium& medium);
-    std::optional<ReferenceRun> knownRun(const LiveRequest& request, const Medium& medium);
-    bool improveWhite(const LiveRequest& request, const Medium& medium, Observer& observer);
-    void drawProfile(const LiveRequest& request, const Medium& medium, LiveDetail detail, LivePlotResult& result);
-    void drawPlane(const LiveRequest& request, const Medium& medium, LiveDetail detail, LivePlotResult& result);
-
-    Engine& engine_;
-    std::map<std::string, Kept> models_;                     ///< by place and id
-    std::vector<std::shared_ptr<const WhiteTable>> tables_;  ///< the last used comes last
-    std::optional<Walked> walked_;
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace searchlight

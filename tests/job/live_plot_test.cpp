@@ -5,6 +5,8 @@
 #include <chrono>
 #include <cmath>
 
+#include "job/curves.h"
+
 namespace searchlight {
 namespace {
 

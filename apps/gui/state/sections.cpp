@@ -1,5 +1,7 @@
 // The table of sections. A dock that keeps options in the workspace states them as Params in its own folder, and adds
 // its row here.
+#include "gui/plot/plot_options.h"
+#include "gui/spheres/spheres_dock.h"
 #include "gui/state/state.h"
 #include "gui/view/view_options.h"
 
@@ -8,6 +10,8 @@ namespace searchlight::gui {
 const std::vector<Section>& sections() {
     static const std::vector<Section> list{
         {"view", viewOptions()},
+        {"plot", plotOptions()},
+        {"spheres", spheresOptions()},
     };
     return list;
 }

@@ -69,11 +69,12 @@ const ParamValue& optionOf(const State& state, std::string_view section, std::st
 State defaultState() {
     State state;
     state.scene.object = "statue";
-    state.scene.scale = 40;
+    state.scene.scale = 60;
     state.scene.camera = {.azimuth_deg = 24, .elevation_deg = 10};
     // From behind at the side: what goes through thin parts is what tells the models apart.
-    state.scene.lights = {DirectionalLight{.direction = {-1.0, 0.9, -0.55}, .irradiance = {2.2, 2.05, 1.9}},
-                          DirectionalLight{.direction = {0.9, 0.6, 1.0}, .irradiance = {0.55, 0.6, 0.7}}};
+    state.scene.lights = {DirectionalLight{.direction = {-0.9, 0.75, -0.8}, .irradiance = {3.2, 3.0, 2.75}},
+                          DirectionalLight{.direction = {0.9, 0.7, 0.8}, .irradiance = {0.42, 0.48, 0.6}}};
+    state.scene.coat = Coat{.roughness = 0.35};
     for (const char* id : {"better_dipole", "dipole", "normalized_diffusion"})
         state.models.push_back(newSlot(state, id));
     normalise(state);

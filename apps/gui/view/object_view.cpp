@@ -71,6 +71,11 @@ void ObjectView::changeEvent(QEvent* event) {
     QWidget::changeEvent(event);
 }
 
+void ObjectView::focusInEvent(QFocusEvent* event) {
+    by_keys_ = event->reason() == Qt::TabFocusReason || event->reason() == Qt::BacktabFocusReason;
+    QWidget::focusInEvent(event);
+}
+
 bool ObjectView::comparing() const { return textOption(desk_.workspace.state(), "compare") != "none"; }
 bool ObjectView::wiping() const { return textOption(desk_.workspace.state(), "compare") == "wipe"; }
 double ObjectView::wipeX() const {
@@ -80,7 +85,11 @@ double ObjectView::wipeX() const {
 void ObjectView::paintEvent(QPaintEvent*) {
     QPainter painter(this);
     const Colors& colors = desk_.theme.colors();
-    painter.fillRect(rect(), colors.canvas);
+    // A little light behind the object, without colour.
+    QRadialGradient stage(rect().center(), std::max(width(), height()) * 0.62);
+    stage.setColorAt(0, colors.stage);
+    stage.setColorAt(1, colors.canvas);
+    painter.fillRect(rect(), stage);
     painter.setRenderHint(QPainter::SmoothPixmapTransform);
     const ViewPicture& shown = pictures_.shown();
     const QRectF whole(rect());
@@ -90,13 +99,13 @@ void ObjectView::paintEvent(QPaintEvent*) {
         const QRectF side(wipeX(), 0, width() - wipeX(), height());
         painter.save();
         painter.setClipRect(side);
-        painter.fillRect(side, colors.canvas);
+        painter.fillRect(side, stage);
         painter.drawImage(whole, shown.b);
         painter.restore();
     }
     paintLabels(painter);
     if (difference) paintScale(painter);
-    if (hasFocus()) {
+    if (hasFocus() && by_keys_) {
         painter.setPen(QPen(colors.accent, 1));
         painter.setBrush(Qt::NoBrush);
         painter.drawRect(QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5));

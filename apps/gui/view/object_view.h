@@ -33,6 +33,7 @@ protected:
     void wheelEvent(QWheelEvent* event) override;
     void keyPressEvent(QKeyEvent* event) override;
     void changeEvent(QEvent* event) override;
+    void focusInEvent(QFocusEvent* event) override;
 
 private:
     enum class Drag { none, orbit, light, pan, wipe };
@@ -54,6 +55,7 @@ private:
     QString error_;
     Drag drag_ = Drag::none;
     QPointF last_;
+    bool by_keys_ = false;  ///< the focus came by the keyboard, and is drawn
 };
 
 }  // namespace searchlight::gui

@@ -16,12 +16,15 @@
 #include <QToolBar>
 #include <QToolButton>
 #include <QVBoxLayout>
+#include <algorithm>
+#include <map>
 
 #include "geometry/object.h"
 #include "gui/state/command_line.h"
 #include "gui/state/open_path.h"
 #include "gui/view/object_view.h"
 #include "gui/view/save_picture.h"
+#include "gui/window/dock_title.h"
 #include "gui/window/docks.h"
 #include "gui/window/notice_bar.h"
 #include "gui/window/task_bar.h"
@@ -83,6 +86,7 @@ void MainWindow::makeDocks() {
         dock->setObjectName(QString("dock.") + entry.id);
         dock->setAccessibleName(tr(entry.title));
         dock->setAccessibleDescription(tr(entry.doc));
+        dock->setTitleBarWidget(new DockTitle(desk_.theme, dock));
         QWidget* body = entry.make(desk_);
         body->setAccessibleName(tr(entry.title));
         dock->setWidget(body);
@@ -111,10 +115,11 @@ void MainWindow::placeDocks() {
         dock->raise();
         if (area == Qt::BottomDockWidgetArea) {
             bottoms << dock;
-            heights << 300;
+            heights << std::clamp(height() / 3, 200, 360);
         } else {
             sides << dock;
-            widths << 340;
+            // Room for code on the right, where there is some.
+            widths << (area == Qt::RightDockWidgetArea && width() > 1600 ? 460 : 340);
         }
     }
     resizeDocks(sides, widths, Qt::Horizontal);

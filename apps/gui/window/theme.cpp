@@ -29,7 +29,8 @@ Colors darkColors() {
     c.panel = "#1a1b1e";
     c.raised = "#26282c";
     c.hover = "#303338";
-    c.canvas = "#101113";
+    c.canvas = "#111214";
+    c.stage = "#2b2c2f";
     c.line = "#2e3035";
     c.text = "#e9e8e6";
     c.muted = "#a09f9b";
@@ -47,7 +48,8 @@ Colors lightColors() {
     c.panel = "#f8f7f5";
     c.raised = "#ffffff";
     c.hover = "#efede9";
-    c.canvas = "#dddcd9";
+    c.canvas = "#cfcecb";
+    c.stage = "#f0efec";
     c.line = "#d6d4cf";
     c.text = "#1c1b1a";
     c.muted = "#66635e";

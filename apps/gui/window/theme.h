@@ -23,6 +23,7 @@ struct Colors {
     QColor raised;  ///< a control on a panel
     QColor hover;   ///< under the pointer
     QColor canvas;  ///< behind pictures: neutral, so that it does not tint what is judged on it
+    QColor stage;   ///< the middle of the canvas
     QColor line;    ///< between things
     QColor text;
     QColor muted;   ///< units, hints

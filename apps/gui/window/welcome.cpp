@@ -31,7 +31,7 @@ Welcome::Welcome(Desk& desk, QWidget* host) : QFrame(host), host_(host) {
     connect(close, &QToolButton::clicked, this, &Welcome::closed);
     head->addWidget(close, 0, Qt::AlignTop);
     column->addLayout(head);
-    auto* row = new QHBoxLayout;
+    auto* row = new QVBoxLayout;
     row->setSpacing(Space::s);
     const struct {
         const char *way, *icon, *title, *doc;
@@ -43,9 +43,10 @@ Welcome::Welcome(Desk& desk, QWidget* host) : QFrame(host), host_(host) {
         button->setObjectName("segment");
         button->setProperty("first", true);
         button->setProperty("last", true);
-        button->setToolButtonStyle(Qt::ToolButtonTextUnderIcon);
+        button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
         button->setIcon(desk.theme.icon(way.icon));
-        button->setIconSize({24, 24});
+        button->setIconSize({20, 20});
+        button->setMinimumHeight(40);
         button->setText(tr(way.title));
         button->setToolTip(tr(way.doc));
         button->setAccessibleDescription(tr(way.doc));
@@ -59,9 +60,10 @@ Welcome::Welcome(Desk& desk, QWidget* host) : QFrame(host), host_(host) {
 }
 
 void Welcome::place() {
-    const int width = std::min(560, host_->width() - 2 * Space::l);
-    resize(std::max(width, 240), sizeHint().height());
-    move((host_->width() - this->width()) / 2, host_->height() - height() - 2 * Space::xl);
+    // Beside the object, not over it.
+    resize(std::min(256, std::max(host_->width() - 2 * Space::l, 160)), 10);
+    resize(width(), layout()->heightForWidth(width()) > 0 ? layout()->heightForWidth(width()) : sizeHint().height());
+    move(host_->width() - width() - Space::l, std::max(Space::xl, (host_->height() - height()) / 2));
 }
 
 bool Welcome::eventFilter(QObject* watched, QEvent* event) {

@@ -28,6 +28,17 @@ CellValues cellValues(const std::array<std::vector<double>, Rgb::channels>& valu
     return {values[0], values[1], values[2]};
 }
 
+double suitedExposure(const Image& image) {
+    constexpr double white = 0.8;
+    std::vector<float> brightest;
+    for (const Rgba& pixel : image.pixels)
+        if (pixel.a > 0) brightest.push_back(std::max({pixel.r, pixel.g, pixel.b}));
+    if (brightest.empty()) return 0;
+    const auto place = brightest.begin() + static_cast<std::ptrdiff_t>(brightest.size() * 98 / 100);
+    std::ranges::nth_element(brightest, place);
+    return *place > 0 ? std::log2(white / static_cast<double>(*place)) : 0;
+}
+
 std::vector<std::uint32_t> seenCells(const CellView& view) {
     std::vector<std::uint32_t> cells;
     for (const CellSample& sample : view.samples) cells.push_back(sample.cell);

@@ -24,6 +24,9 @@ std::array<SphereError, Rgb::channels> sphereErrors(const CellView& view, const 
 /// The spans that pictures are made of.
 CellValues cellValues(const std::array<std::vector<double>, Rgb::channels>& values);
 
+/// Stops that bring the brightest 2 % of the covered pixels to 0.8.
+double suitedExposure(const Image& image);
+
 /// Each cell that the view shows, once, ascending.
 std::vector<std::uint32_t> seenCells(const CellView& view);
 

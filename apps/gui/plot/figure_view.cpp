@@ -1,0 +1,336 @@
+#include "gui/plot/figure_view.h"
+
+#include <QKeyEvent>
+#include <QMouseEvent>
+#include <QPainter>
+#include <QWheelEvent>
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "draw/figure_layout.h"
+#include "draw/figure_texts.h"
+#include "draw/legend.h"
+#include "draw/plot_area.h"
+#include "draw/text_width.h"
+#include "gui/plot/figure_ink.h"
+#include "gui/window/theme.h"
+
+namespace searchlight::gui {
+
+namespace {
+
+constexpr double margin = 10;
+
+// Where an axis' own scale is even: logarithms, square roots.
+double toEven(AxisScale scale, double value) {
+    if (scale == AxisScale::logarithmic) return std::log10(value);
+    return scale == AxisScale::square_root ? std::copysign(std::sqrt(std::abs(value)), value) : value;
+}
+
+double fromEven(AxisScale scale, double value) {
+    if (scale == AxisScale::logarithmic) return std::pow(10.0, value);
+    return scale == AxisScale::square_root ? std::copysign(value * value, value) : value;
+}
+
+// The part of [min, max] around the fraction `t` of its length, `factor` times as long, moved by `shift` lengths.
+bool zoomInterval(AxisScale scale, double t, double factor, double shift, double& min, double& max) {
+    const double low = toEven(scale, min), high = toEven(scale, max), span = high - low, at = low + t * span;
+    const double new_low = fromEven(scale, at - factor * t * span + shift * span);
+    const double new_high = fromEven(scale, at + factor * (1 - t) * span + shift * span);
+    if (!canShow(scale, new_low) || !canShow(scale, new_high)) return false;
+    if (!(new_high - new_low > 1e-9 * std::max(std::abs(new_low), std::abs(new_high)))) return false;
+    min = new_low;
+    max = new_high;
+    return true;
+}
+
+// The value of a series at x: that of its bin, or of the line through its points.
+std::optional<double> valueAt(const Series& series, double x, std::size_t* index) {
+    const auto above = std::ranges::upper_bound(series.x, x);
+    if (above == series.x.begin() || above == series.x.end()) return {};
+    const std::size_t i = static_cast<std::size_t>(above - series.x.begin()) - 1;
+    *index = i;
+    if (series.style == SeriesStyle::steps) return series.y[i];
+    if (i + 1 >= series.y.size()) return {};
+    const double t = (x - series.x[i]) / (series.x[i + 1] - series.x[i]);
+    return series.y[i] + t * (series.y[i + 1] - series.y[i]);
+}
+
+QString numberText(double value) { return QString::number(value, 'g', 4); }
+
+}  // namespace
+
+FigureView::FigureView(Theme& theme, QWidget* parent) : QWidget(parent), theme_(theme) {
+    setMouseTracking(true);
+    setFocusPolicy(Qt::StrongFocus);
+    setAccessibleName(tr("Searchlight plot"));
+    setToolTip(tr("Wheel: zoom. Drag: move. Double click: all of it."));
+    connect(&theme_, &Theme::changed, this, qOverload<>(&QWidget::update));
+}
+
+bool FigureView::isEmpty() const { return figure_.series.empty() && figure_.panels.empty() && !figure_.map; }
+
+bool FigureView::isSingle() const { return !figure_.series.empty() && figure_.panels.empty() && !figure_.map; }
+
+void FigureView::setFigure(Figure figure, const QString& empty_text) {
+    const auto same = [](const Axis& a, const Axis& b) { return a.label == b.label && a.scale == b.scale; };
+    if (!same(figure.x, figure_.x) || !same(figure.y, figure_.y)) zoomed_.reset();
+    figure_ = std::move(figure);
+    empty_text_ = empty_text;
+    panels_.reset();
+    setCursor(cursor_);
+    QString heard = QString::fromStdString(figure_.title);
+    for (const Series& series : figure_.series) heard += QStringLiteral("; ") + QString::fromStdString(series.label);
+    setAccessibleDescription(isEmpty() ? empty_text_ : heard);
+    update();
+}
+
+std::optional<FigureRange> FigureView::shownRange() const {
+    if (!isSingle()) return {};
+    if (zoomed_) return zoomed_;
+    try {
+        return figureRange(figure_);
+    } catch (const Error&) {
+        return {};
+    }
+}
+
+void FigureView::resetZoom() {
+    zoomed_.reset();
+    update();
+}
+
+Rect FigureView::frameOf(const FigureRange& range) const {
+    double labels = 0;
+    const AxisTicks ticks = ticksOf(figure_.y, range.y_min, range.y_max, std::max(3, height() / 64));
+    for (const Tick& tick : ticks.ticks) labels = std::max(labels, labelWidth(tick));
+    const double left = margin + label_size + 8 + labels + 7;
+    const double top = margin + (ticks.factor != 0 ? 16 : 4);
+    return {std::round(left) + 0.5, std::round(top) + 0.5,
+            std::max(left + 40, width() - margin - 6.0 - legend_room_) + 0.5,
+            std::max(top + 40, height() - margin - 36.0) + 0.5};
+}
+
+void FigureView::zoom(double factor, QPointF about) {
+    auto range = shownRange();
+    if (!range) return;
+    const Rect frame = frameOf(*range);
+    const double tx = std::clamp((about.x() - frame.left) / frame.width(), 0.0, 1.0);
+    const double ty = std::clamp((frame.bottom - about.y()) / frame.height(), 0.0, 1.0);
+    if (zoomInterval(figure_.x.scale, tx, factor, 0, range->x_min, range->x_max) &&
+        zoomInterval(figure_.y.scale, ty, factor, 0, range->y_min, range->y_max))
+        zoomed_ = range;
+    update();
+}
+
+void FigureView::moveBy(QPointF pixels) {
+    auto range = shownRange();
+    if (!range) return;
+    const Rect frame = frameOf(*range);
+    if (zoomInterval(figure_.x.scale, 0, 1, -pixels.x() / frame.width(), range->x_min, range->x_max) &&
+        zoomInterval(figure_.y.scale, 0, 1, pixels.y() / frame.height(), range->y_min, range->y_max))
+        zoomed_ = range;
+    update();
+}
+
+void FigureView::setCursor(std::optional<QPointF> at) {
+    cursor_ = at;
+    read_out_.clear();
+    const auto range = shownRange();
+    if (!at || !range) return;
+    const Rect frame = frameOf(*range);
+    if (!frame.contains({at->x(), at->y()})) return;
+    double x = range->x_min, x_end = range->x_max;
+    if (!zoomInterval(figure_.x.scale, (at->x() - frame.left) / frame.width(), 1e-7, 0, x, x_end)) return;
+    read_out_ << QStringLiteral("%1 %2 %3")
+                     .arg(QString::fromStdString(figure_.x.label), numberText(x),
+                          QString::fromStdString(figure_.x.unit));
+    for (const Series& series : figure_.series) {
+        if (!series.in_legend) continue;
+        std::size_t i = 0;
+        const auto value = valueAt(series, x, &i);
+        if (!value || !std::isfinite(*value)) continue;
+        QString text = QString::fromStdString(series.label) + QStringLiteral("\t") + numberText(*value);
+        if (!series.lower.empty() && series.style == SeriesStyle::steps)
+            text += QStringLiteral(" ± ") + numberText(0.5 * (series.upper[i] - series.lower[i]));
+        read_out_ << text;
+    }
+}
+
+void FigureView::paintReadOut(QPainter& painter, const Rect& frame) {
+    if (!cursor_ || read_out_.isEmpty()) return;
+    const Colors& colors = theme_.colors();
+    painter.setPen(QPen(colors.muted, 1, Qt::DotLine));
+    painter.drawLine(QPointF(cursor_->x(), frame.top), QPointF(cursor_->x(), frame.bottom));
+    const QFont font = theme_.smallFont();
+    const QFontMetrics metrics(font);
+    int names = 0, values = 0;
+    for (const QString& line : read_out_) {
+        const QStringList parts = line.split(QLatin1Char('\t'));
+        names = std::max(names, metrics.horizontalAdvance(parts.front()));
+        if (parts.size() > 1) values = std::max(values, metrics.horizontalAdvance(parts.back()));
+    }
+    const int row = metrics.height() + 2, box_width = names + (values > 0 ? values + 20 : 0) + 16;
+    const int box_height = row * static_cast<int>(read_out_.size()) + 10;
+    double left = cursor_->x() + 14;
+    if (left + box_width > frame.right) left = cursor_->x() - 14 - box_width;
+    left = std::max(left, frame.left + 2);
+    const double top = std::clamp(cursor_->y() - 0.5 * box_height, frame.top + 2,
+                                  std::max(frame.top + 2, frame.bottom - 2 - box_height));
+    QColor back = colors.raised;
+    back.setAlphaF(0.94f);
+    painter.setPen(QPen(colors.line, 1));
+    painter.setBrush(back);
+    painter.drawRoundedRect(QRectF(left, top, box_width, box_height), 4, 4);
+    painter.setFont(font);
+    for (int i = 0; i < read_out_.size(); ++i) {
+        const QStringList parts = read_out_[i].split(QLatin1Char('\t'));
+        const double base = top + 5 + row * (i + 1) - metrics.descent() - 1;
+        painter.setPen(i == 0 ? colors.muted : colors.text);
+        painter.drawText(QPointF(left + 8, base), parts.front());
+        if (parts.size() > 1)
+            painter.drawText(QPointF(left + box_width - 8 - metrics.horizontalAdvance(parts.back()), base),
+                             parts.back());
+    }
+}
+
+void FigureView::paintSingle(QPainter& painter) {
+    const auto range = shownRange();
+    if (!range) return;
+    const AxisTicks y_ticks = ticksOf(figure_.y, range->y_min, range->y_max, std::max(3, height() / 64));
+    const std::vector<LegendEntry> entries = legendEntries(figure_);
+    const LegendSize legend = legendSize(entries);
+    // A legend that would cover most of a small plot is left to the list of models.
+    const bool has_legend = !entries.empty() && legend.width < 0.75 * width() && legend.height < 0.7 * height();
+    constexpr int bearable = 6;  // points of lines under the legend
+    std::vector<Shape> shapes;
+    legend_room_ = 0;
+    while (true) {
+        const Rect frame = frameOf(*range);
+        const AxisTicks x_ticks =
+            ticksOf(figure_.x, range->x_min, range->x_max, std::max(3, static_cast<int>(frame.width() / 80)));
+        const PlotArea plot(figure_, frame, *range, x_ticks, y_ticks);
+        DrawnData drawn;
+        shapes.clear();
+        plot.drawGrid(shapes);
+        plot.drawSeries(shapes, drawn);
+        plot.drawAxes(shapes);
+        if (x_ticks.factor != 0) drawFactor(shapes, {frame.right - 40, frame.bottom + 36}, x_ticks.factor);
+        if (!has_legend) break;
+        const double left = frame.right + Space::s;
+        if (legend_room_ > 0) {
+            drawLegend(shapes, entries, {left, frame.top, left + legend.width, frame.top + legend.height});
+            break;
+        }
+        const LegendPlace place = placeLegend(legend, frame, drawn);
+        if (place.covered <= bearable || frame.width() - legend.width < 280) {
+            drawLegend(shapes, entries, place.box);
+            break;
+        }
+        legend_room_ = legend.width + Space::s;
+    }
+    const Rect frame = frameOf(*range);
+    shapes.push_back(Text{
+        {0.5 * (frame.left + frame.right), frame.bottom + 36}, axisText(figure_.x), label_size, Anchor::middle, ink});
+    shapes.push_back(Text{{margin + label_size - 3, 0.5 * (frame.top + frame.bottom)},
+                          axisText(figure_.y),
+                          label_size,
+                          Anchor::middle,
+                          ink,
+                          false,
+                          true});
+    if (y_ticks.factor != 0) drawFactor(shapes, {frame.left, frame.top - 4}, y_ticks.factor);
+    paintShapes(painter, shapes, figureInk(theme_));
+    paintReadOut(painter, frame);
+}
+
+// As many columns as make the panels largest in this window; its caption is for paper.
+const Drawing& FigureView::panels() {
+    if (panels_ && panels_size_ == size()) return *panels_;
+    Figure figure = figure_;
+    figure.caption.clear();
+    double best = 0;
+    for (int columns = 1; columns <= std::max(1, static_cast<int>(figure_.panels.size())); ++columns) {
+        figure.columns = columns;
+        Drawing drawing = layoutFigure(figure);
+        const double scale = std::min(width() / drawing.width, height() / drawing.height);
+        if (scale <= best) continue;
+        best = scale;
+        panels_ = std::move(drawing);
+    }
+    panels_size_ = size();
+    return *panels_;
+}
+
+void FigureView::paintPanels(QPainter& painter) {
+    const Drawing& drawing = panels();
+    const double scale = std::min((width() - 2 * margin) / drawing.width, (height() - 2 * margin) / drawing.height);
+    painter.translate(0.5 * (width() - scale * drawing.width), 0.5 * (height() - scale * drawing.height));
+    painter.scale(scale, scale);
+    paintShapes(painter, drawing.shapes, figureInk(theme_));
+}
+
+void FigureView::paintEvent(QPaintEvent*) {
+    QPainter painter(this);
+    painter.fillRect(rect(), theme_.colors().panel);
+    QString text = empty_text_;
+    try {
+        if (isSingle() && shownRange())
+            paintSingle(painter);
+        else if (!isEmpty())
+            paintPanels(painter);
+        else
+            painter.setPen(theme_.colors().muted);
+        if (!isEmpty()) return;
+    } catch (const Error& error) {
+        text = QString::fromStdString(error.message);
+    }
+    painter.resetTransform();
+    painter.setPen(theme_.colors().muted);
+    painter.setFont(theme_.textFont());
+    painter.drawText(rect().adjusted(24, 24, -24, -24), Qt::AlignCenter | Qt::TextWordWrap, text);
+}
+
+void FigureView::mouseMoveEvent(QMouseEvent* event) {
+    if (dragged_from_) {
+        moveBy(event->position() - *dragged_from_);
+        dragged_from_ = event->position();
+    }
+    setCursor(event->position());
+    update();
+}
+
+void FigureView::mousePressEvent(QMouseEvent* event) {
+    if (event->button() == Qt::LeftButton) dragged_from_ = event->position();
+}
+
+void FigureView::mouseReleaseEvent(QMouseEvent*) { dragged_from_.reset(); }
+
+void FigureView::wheelEvent(QWheelEvent* event) {
+    zoom(std::pow(0.998, event->angleDelta().y()), event->position());
+    setCursor(event->position());
+    event->accept();
+}
+
+void FigureView::keyPressEvent(QKeyEvent* event) {
+    const QPointF middle(0.5 * width(), 0.5 * height());
+    constexpr double step = 40;
+    switch (event->key()) {
+        case Qt::Key_Plus: return zoom(0.8, middle);
+        case Qt::Key_Minus: return zoom(1.25, middle);
+        case Qt::Key_0: return resetZoom();
+        case Qt::Key_Left: return moveBy({step, 0});
+        case Qt::Key_Right: return moveBy({-step, 0});
+        case Qt::Key_Up: return moveBy({0, step});
+        case Qt::Key_Down: return moveBy({0, -step});
+        default: QWidget::keyPressEvent(event);
+    }
+}
+
+void FigureView::leaveEvent(QEvent*) {
+    setCursor({});
+    update();
+}
+
+}  // namespace searchlight::gui

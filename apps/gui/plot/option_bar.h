@@ -1,0 +1,50 @@
+// A row of small controls, each of which shows one option of a section and sets it.
+#pragma once
+
+#include <QStringList>
+#include <QWidget>
+#include <functional>
+#include <vector>
+
+#include "gui/window/desk.h"
+
+class QAbstractButton;
+class QBoxLayout;
+class QComboBox;
+
+namespace searchlight::gui {
+
+class OptionBar : public QWidget {
+    Q_OBJECT
+
+public:
+    /// Of that section. Wraps where it is too narrow for one row.
+    OptionBar(Desk& desk, std::string section, QWidget* parent = nullptr);
+
+    /// A choice; `labels` in the order of the Param's choices.
+    QComboBox* addChoice(const std::string& option, const QString& title, const QStringList& labels);
+    /// A number with its unit; `decimals` shown.
+    QWidget* addNumber(const std::string& option, const QString& title, int decimals, double step);
+    /// A button that is down while the option is true; the icon may be empty.
+    QAbstractButton* addToggle(const std::string& option, const QString& title, const QString& icon);
+    /// Anything else.
+    void addWidget(QWidget* widget);
+
+    QSize sizeHint() const override;
+    bool hasHeightForWidth() const override { return true; }
+    int heightForWidth(int width) const override { return place(width, false); }
+
+protected:
+    void resizeEvent(QResizeEvent*) override;
+
+private:
+    const Param& param(const std::string& option) const;
+    void bind(const std::string& option, QWidget* widget, std::function<void(const ParamValue&)> show);
+    int place(int width, bool move) const;
+
+    Desk& desk_;
+    std::string section_;
+    std::vector<QWidget*> widgets_;
+};
+
+}  // namespace searchlight::gui
