@@ -1,6 +1,5 @@
 #include "render/cell_view.h"
 
-#include <cmath>
 #include <optional>
 
 #include "base/parallel.h"
@@ -24,10 +23,9 @@ std::optional<Seen> seen(const MeshBody& body, Vec3 eye, Vec3 direction) {
 }
 
 std::optional<Seen> seen(const Ball& ball, Vec3 eye, Vec3 direction) {
-    const double b = dot(eye, direction), c = dot(eye, eye) - ball.radius() * ball.radius();
-    if (b * b <= c || b > 0) return {};
-    const Vec3 normal = normalize(eye + (-b - std::sqrt(b * b - c)) * direction);
-    return Seen{ball.cells().at(normal), -dot(direction, normal)};
+    const auto point = ball.seen(eye, direction);
+    if (!point) return {};
+    return Seen{ball.cells().at(point->normal), -dot(direction, point->normal)};
 }
 
 template <class Body>

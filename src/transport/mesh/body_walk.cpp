@@ -198,9 +198,12 @@ public:
         const auto walks = [](const Group& group) { return group.walking != 0; };
         while (std::ranges::any_of(groups_, walks)) {
             for (Group& group : groups_) advance(group);
-            if (regions_.tabulated())
+            if (regions_.tabulated()) {
                 for (Group& group : groups_) lookUp(group);
-            cross();
+                cross(groups_);  // few of each: together they fill packets
+            } else {
+                for (Group& group : groups_) cross({&group, 1});
+            }
             for (Group& group : groups_) {
                 for (; group.ends != 0; group.ends &= group.ends - 1) {
                     const auto lane = static_cast<std::size_t>(std::countr_zero(group.ends));
@@ -283,9 +286,9 @@ private:
     }
 
     // Tests flights that no region clears against the surface.
-    void cross() {
+    void cross(std::span<Group> groups) {
         std::size_t count = 0;
-        for (Group& group : groups_) {
+        for (Group& group : groups) {
             group.doubtful &= group.uncleared;  // the others are inside
             const Lanes &before = from(group), &after = to(group);
             for (std::uint64_t rest = group.uncleared; rest != 0; rest &= rest - 1) {
@@ -298,7 +301,7 @@ private:
         chunk_.rays += count;
         body_.cross({flights_, count}, {crossings_, count});
         const Crossing* crossing = crossings_;
-        for (Group& group : groups_)
+        for (Group& group : groups)
             for (std::uint64_t rest = group.uncleared; rest != 0; rest &= rest - 1)
                 settle(group, static_cast<std::size_t>(std::countr_zero(rest)), *crossing++);
     }

@@ -192,6 +192,11 @@ MeshBody::MeshBody(const Mesh& mesh, const MeshBodyOptions& options)
     const double cell = std::clamp(kCellMfp * options.shortest_mfp, longest / kMostAlong, longest / kFewestAlong);
     regions_ = options.regions ? buildSafeRegions(mesh_, cell, options.shortest_mfp, options.threads)
                                : unknownRegion(toDouble(low), toDouble(high));
+    const auto end = [&](float origin, std::int32_t cells) {
+        return origin + static_cast<float>(cells) * regions_.cell_mm;
+    };
+    low_ = regions_.origin;
+    high_ = {end(low_.x, regions_.nx), end(low_.y, regions_.ny), end(low_.z, regions_.nz)};
     build_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
@@ -251,41 +256,43 @@ std::optional<RayHit> MeshBody::leaving(const Ray& flight, const RayHit& entered
 }
 
 void MeshBody::cross(std::span<const Ray> flights, std::span<Crossing> crossings) const {
-    constexpr std::size_t most = 256;
-    assert(flights.size() == crossings.size() && flights.size() <= most);
+    assert(flights.size() == crossings.size());
+    constexpr std::size_t most = 32;
     RayHit hits[most];
-    rays_.intersect(flights, {hits, flights.size()}, false);
-    for (std::size_t i = 0; i < flights.size(); ++i) {
-        const Ray& flight = flights[i];
-        Crossing& crossing = crossings[i];
-        crossing = {};
-        RayHit hit = hits[i];
-        if (std::isfinite(hit.t) && !(dot(toDouble(flight.direction), toDouble(hit.normal)) > 0)) {
-            const std::optional<RayHit> left = leaving(flight, hit);
-            if (!left) {
-                crossing.what = Crossing::What::lost;
-                continue;
-            }
-            hit = *left;
-        }
-        if (!std::isfinite(hit.t)) {
-            const Vec3 end = toDouble(flight.origin) + static_cast<double>(flight.t_max) * toDouble(flight.direction);
-            const Vec3 at = (1 / static_cast<double>(regions_.cell_mm)) * (end - toDouble(regions_.origin));
-            const bool within =
-                at.x > 0 && at.y > 0 && at.z > 0 && at.x < regions_.nx && at.y < regions_.ny && at.z < regions_.nz;
-            if (!within) crossing.what = Crossing::What::lost;
-            continue;
-        }
-        const auto& [a, b, c] = mesh_.triangles[hit.triangle];
-        const Vec3 p = toDouble(mesh_.positions[a]);
-        const Vec3 at = p + static_cast<double>(hit.u) * (toDouble(mesh_.positions[b]) - p) +
-                        static_cast<double>(hit.v) * (toDouble(mesh_.positions[c]) - p);
-        crossing.what = Crossing::What::surface;
-        crossing.normal = toDouble(hit.normal);
-        crossing.position = toFloat(at);
-        crossing.inside = toFloat(at - nudge_ * crossing.normal);
-        crossing.cell = cells_.at(hit.triangle, hit.u, hit.v);
+    for (std::size_t first = 0; first < flights.size(); first += most) {
+        const std::size_t count = std::min(most, flights.size() - first);
+        rays_.intersect(flights.subspan(first, count), {hits, count}, false);
+        for (std::size_t i = 0; i < count; ++i)
+            crossings[first + i].what = cross(flights[first + i], hits[i], crossings[first + i]);
     }
+}
+
+Crossing::What MeshBody::cross(const Ray& flight, RayHit hit, Crossing& crossing) const {
+    if (std::isfinite(hit.t) && !(dot(toDouble(flight.direction), toDouble(hit.normal)) > 0)) {
+        const std::optional<RayHit> left = leaving(flight, hit);
+        if (!left) return Crossing::What::lost;
+        hit = *left;
+    }
+    if (!std::isfinite(hit.t)) {
+        const auto beyond = [&](float from, float along, float low, float high) {
+            const float end = from + flight.t_max * along;
+            return !(end > low && end < high);
+        };
+        const Vec3f from = flight.origin, along = flight.direction;
+        if (beyond(from.x, along.x, low_.x, high_.x) || beyond(from.y, along.y, low_.y, high_.y) ||
+            beyond(from.z, along.z, low_.z, high_.z))
+            return Crossing::What::lost;
+        return Crossing::What::none;
+    }
+    const auto& [a, b, c] = mesh_.triangles[hit.triangle];
+    const Vec3 p = toDouble(mesh_.positions[a]);
+    const Vec3 at = p + static_cast<double>(hit.u) * (toDouble(mesh_.positions[b]) - p) +
+                    static_cast<double>(hit.v) * (toDouble(mesh_.positions[c]) - p);
+    crossing.normal = toDouble(hit.normal);
+    crossing.position = toFloat(at);
+    crossing.inside = toFloat(at - nudge_ * crossing.normal);
+    crossing.cell = cells_.at(hit.triangle, hit.u, hit.v);
+    return Crossing::What::surface;
 }
 
 }  // namespace searchlight

@@ -96,6 +96,7 @@ public:
     void cross(std::span<const Ray> flights, std::span<Crossing> crossings) const;
 
 private:
+    Crossing::What cross(const Ray& flight, RayHit hit, Crossing& crossing) const;
     std::optional<RayHit> leaving(const Ray& flight, const RayHit& entered) const;
 
     Mesh mesh_;
@@ -104,6 +105,7 @@ private:
     SafeRegions regions_;
     std::vector<double> area_to_;        ///< of the triangles up to each
     std::vector<std::ptrdiff_t> first_;  ///< of the triangles that end beyond each of as many equal parts of the area
+    Vec3f low_, high_;                   ///< of a box around the mesh and a little more: no walk inside is beyond
     double volume_ = 0;
     double nudge_ = 0;  ///< mm: how far a point on the surface may be rounded off it
     double build_seconds_ = 0;

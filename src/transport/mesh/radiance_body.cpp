@@ -143,6 +143,7 @@ BodyRadiance walkAny(const Body& body, const Medium& medium, int channel, const 
     ChunkedWalk job;
     job.plan.walks = options.walks_per_pixel * camera.pixels();
     job.plan.size = std::clamp((job.plan.walks + kFewestChunks - 1) / kFewestChunks, std::uint64_t{1}, kLargestChunk);
+    if (options.control.state && !options.control.state->empty()) job.plan.size = options.control.state->chunk_size;
     job.threads = options.threads;
     job.control = options.control;
     const ChunkedResult walked = walkChunks(

@@ -17,7 +17,7 @@ constexpr double kReachCells = 2.5;  // exact distances up to here; the transfor
 
 // Balls to choose from, by how far they let flights go in mean free paths: the wider, the more a curved surface pushes
 // the plane back.
-constexpr std::array kReaches{1.0, 1.75, 3.0};
+constexpr std::array kReaches{1.0, 2.0};
 
 // Of what a plane is moved back by, in cells: positions are rounded.
 constexpr double kMargin = 1e-3;
