@@ -5,7 +5,7 @@
 // without bound), and comes with its opposite azimuth; 16 lanes share it (ways_out-inl.h). What crosses the surface
 // later was counted already: only the reflected part goes on.
 //
-// Importance: weight times importance below 0.3 meets a roulette, above 2 the walk is split (importance.h).
+// Importance: weight times importance below 0.6 meets a roulette, above 2 the walk is split (importance.h).
 //
 // Order 1 is exact at normal incidence.
 //
@@ -38,7 +38,7 @@ constexpr std::size_t kCopies = 16;
 constexpr int kFlushSteps = 256;  // floats hold no more than so many additions a pack
 // Without absorption a walk has no mean length: beyond so many collisions its importance falls as their inverse.
 constexpr std::int32_t kLongWalk = 1 << 13;
-constexpr float kRoulette = 0.3f, kSplit = 2.0f;
+constexpr float kRoulette = 0.6f, kSplit = 2.0f;
 constexpr float kMostParts = 16;
 static_assert(kSplit >= 2, "a split makes at least two parts");
 
@@ -298,6 +298,11 @@ private:
         const Float d;
         const Int di;
         const LaneBins& bins = plan_.bins;
+        if (bins.per_length > 0) {
+            const FloatV place = hn::Mul(hn::Sqrt(r2), hn::Set(d, bins.per_length));
+            const FloatV most = hn::Set(d, static_cast<float>(bins.next_edge.size() - 2));
+            return hn::Add(hn::ConvertTo(di, hn::Min(place, most)), hn::Set(di, 1));
+        }
         const IntV last = hn::Set(di, static_cast<int>(bins.first_slot.size()) - 1);
         const IntV cell = hn::Sub(hn::ShiftRightSame(hn::BitCast(di, r2), bins.shift), hn::Set(di, bins.first_cell));
         IntV slot = hn::GatherIndex(di, bins.first_slot.data(), hn::Min(hn::Max(cell, hn::Zero(di)), last));

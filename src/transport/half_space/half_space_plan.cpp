@@ -64,6 +64,11 @@ LaneBins laneBins(std::span<const double> edges) {
             ++slot;
         bins.first_slot.push_back(slot);
     }
+    const double last_edge = edges.back(), count = static_cast<double>(edges.size() - 1);
+    bool alike = count < 0x1p20;
+    for (std::size_t i = 0; i < edges.size(); ++i)
+        alike &= std::abs(edges[i] - last_edge * static_cast<double>(i) / count) <= 1e-7 * edges[i];
+    if (alike) bins.per_length = static_cast<float>(count / last_edge);
     return bins;
 }
 
