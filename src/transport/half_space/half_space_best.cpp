@@ -18,6 +18,8 @@
 #include <cstring>
 #include <memory>
 
+#include "transport/walk/long_walk.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "transport/half_space/half_space_best.cpp"
 // As in half_space_walk.cpp.
@@ -37,7 +39,7 @@ namespace HWY_NAMESPACE {
 constexpr std::size_t kCopies = 16;
 constexpr int kFlushSteps = 256;  // floats hold no more than so many additions a pack
 // Without absorption a walk has no mean length: beyond so many collisions its importance falls as their inverse.
-constexpr std::int32_t kLongWalk = 1 << 13;
+constexpr std::int32_t kFadingWalk = 1 << 13;
 constexpr float kRoulette = 0.6f, kSplit = 2.0f;
 constexpr float kMostParts = 16;
 static_assert(kSplit >= 2, "a split makes at least two parts");
@@ -197,7 +199,7 @@ private:
                        hn::IfThenElseZero(crosses, hn::Sub(pack.weight, reflected)));
         }
         pack.weight = hn::IfThenElse(crosses, reflected, pack.weight);
-        pack.order = hn::Add(pack.order, hn::Set(di, 1));
+        pack.order = hn::Min(hn::Add(pack.order, hn::Set(di, 1)), hn::Set(di, kEndlessWalk));
         // The first two collisions are common to all walks: finish() counts what they absorb.
         const FloatM absorbs = hn::RebindMask(d, hn::Gt(pack.order, hn::Set(di, 2)));
         pack.weight = hn::IfThenElse(absorbs, hn::Mul(pack.weight, hn::Set(d, albedo_)), pack.weight);
@@ -326,9 +328,9 @@ private:
         const IntV row = cell(hn::MulAdd(pack.z, pack.z, offset));
         const IntV index = hn::Add(hn::Mul(row, hn::Set(di, ImportanceTable::kCells)), column);
         const FloatV importance = hn::GatherIndex(d, plan_.importance.value.data(), index);
-        const hn::Mask<Int> is_long = hn::Gt(pack.order, hn::Set(di, kLongWalk));
+        const hn::Mask<Int> is_long = hn::Gt(pack.order, hn::Set(di, kFadingWalk));
         if (HWY_LIKELY(hn::AllFalse(di, is_long))) return importance;
-        const FloatV fade = hn::Div(hn::Set(d, static_cast<float>(kLongWalk)), hn::ConvertTo(d, pack.order));
+        const FloatV fade = hn::Div(hn::Set(d, static_cast<float>(kFadingWalk)), hn::ConvertTo(d, pack.order));
         return hn::IfThenElse(hn::RebindMask(d, is_long), hn::Mul(importance, fade), importance);
     }
 
