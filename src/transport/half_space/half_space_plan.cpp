@@ -146,7 +146,8 @@ std::uint64_t walkBestChunk(const BestPlan& plan, std::uint64_t seed, std::uint6
         one.r2 = n * plan.single->r2;
     }
     if (led == 0) return collisions;
-    more.flux[0] = scale * all.total - one.flux[0];
+    // Without absorption everything leaves.
+    more.flux[0] = (plan.walk.absorbed == 0 ? n : scale * all.total) - one.flux[0];
     more.x = scale * all.x - one.x;
     more.r2 = scale * all.r2 - one.r2;
     if (plan.counts_beyond) {
