@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <ctime>
+#include <limits>
+#include <utility>
+#include <vector>
 
 #include "base/error.h"
 #include "base/files.h"
@@ -12,6 +15,7 @@
 #include "job/json.h"
 #include "transport/half_space/half_space.h"
 #include "transport/half_space/half_space_walk.h"
+#include "transport/slab/slab.h"
 
 namespace searchlight {
 
@@ -55,7 +59,14 @@ Timed walkFor(double seconds, const HalfSpaceProblem& problem, HalfSpaceOptions 
     return walkTimed(problem, options, observer);
 }
 
-// 1 / (relative variance x CPU seconds) of bins of 0.1 reduced mean free paths; the relative variance is the mean over
+// 1 / (relative variance x CPU seconds); null of what has no error or no value.
+Json meritOf(const Estimate& estimate, double cpu_seconds) {
+    if (estimate.mean == 0 || estimate.standard_error == 0) return nullptr;
+    const double relative = estimate.standard_error / estimate.mean;
+    return 1 / (relative * relative * cpu_seconds);
+}
+
+// That of bins of 0.1 reduced mean free paths; the relative variance is the mean over
 // five neighbours, since each is known to some 10 % from the scatter of the chunks. Null where a bin has seen nothing.
 Json meritAt(double radius, const Timed& timed) {
     const HalfSpaceTally& tally = timed.result.all;
@@ -97,8 +108,61 @@ Json rowJson(const Case& one, const Walker& walker, int bins, double seconds, st
              {"collisions_per_s", static_cast<double>(result.collisions) / timed.seconds}};
     for (const double radius : radii) row["merit"].push_back(meritAt(radius, timed));
     const Estimate& total = result.all.total;
-    row["merit_total"] = total.mean * total.mean / (total.standard_error * total.standard_error * timed.seconds);
+    row["merit_total"] = meritOf(total, timed.seconds);
+    row["merit_r2"] = meritOf(result.all.mean_r2_mm2, timed.seconds);
     row[walker.gl ? "wall_seconds" : "cpu_seconds"] = timed.seconds;
+    return row;
+}
+
+struct SlabCase {
+    const char* name;
+    SlabProblem problem;
+    double step_mm;  ///< width of the annuli
+};
+
+// MCML's sample of three layers; a thin sheet; a half-space of strong forward scattering.
+std::vector<SlabCase> slabCases() {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    return {{"three layers, n 1.37",
+             {.layers = {{.n = 1.37, .sigma_a = 0.1, .sigma_s = 10, .g = 0.9, .thickness_mm = 1},
+                         {.n = 1.37, .sigma_a = 0.1, .sigma_s = 1, .thickness_mm = 1},
+                         {.n = 1.37, .sigma_a = 0.2, .sigma_s = 1, .g = 0.7, .thickness_mm = 2}}},
+             0.1},
+            {"sheet, g 0.75", {.layers = {{.sigma_a = 1, .sigma_s = 9, .g = 0.75, .thickness_mm = 0.2}}}, 0.02},
+            {"half-space, g 0.9",
+             {.layers = {{.n = 1.4, .sigma_a = 0.01, .sigma_s = 10, .g = 0.9, .thickness_mm = infinity}}},
+             0.1}};
+}
+
+// Slabs are walked by the analogue alone. Merits of R, T and A, and of R(r) and T(r) at 5, 10, 20 and 50 annuli.
+Json slabRow(const SlabCase& one, double seconds, std::uint64_t seed) {
+    SlabOptions options;
+    options.seed = seed;
+    options.threads = 1;
+    for (int i = 0; i <= bins_to_5; ++i) options.edges_mm.push_back(one.step_mm * i);
+    options.depth_mm = one.step_mm * options.depths;
+    Observer quiet;
+    const auto timed = [&](std::uint64_t walks) {
+        options.walks = walks;
+        const std::clock_t begin = std::clock();
+        SlabResult result = walkSlab(one.problem, options, quiet);
+        return std::pair(std::move(result), static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
+    };
+    const double once = std::max(timed(first_walks).second, 1e-4);
+    const auto [result, spent] =
+        timed(static_cast<std::uint64_t>(std::max(1.0, seconds / once) * static_cast<double>(first_walks)));
+    Json row{{"case", one.name},
+             {"estimator", "analogue"},
+             {"walks_per_s", static_cast<double>(result.walks) / spent},
+             {"collisions_per_s", static_cast<double>(result.collisions) / spent}};
+    row["merit_R"] = meritOf(result.R, spent);
+    row["merit_T"] = meritOf(result.T, spent);
+    row["merit_A"] = meritOf(result.A, spent);
+    for (const std::size_t bin : {5, 10, 20, 50}) {
+        row["merit_R_r"].push_back(meritOf({result.R_r.mean[bin], result.R_r.standard_error[bin], 0}, spent));
+        row["merit_T_r"].push_back(meritOf({result.T_r.mean[bin], result.T_r.standard_error[bin], 0}, spent));
+    }
+    row["cpu_seconds"] = spent;
     return row;
 }
 
@@ -131,7 +195,8 @@ JobResult runBenchTransport(const Job& job, Engine& engine, Observer& observer) 
                               "walks/s", "collisions/s", "", "", "", "");
     for (const double radius : radii) result.text += fmt::format(" {:>9}", radius);
     result.text += fmt::format(" {:>9}\n", "total");
-    const std::uint64_t total = std::size(cases) * 2 * walkers.size();
+    const std::vector<SlabCase> slabs = slabCases();
+    const std::uint64_t total = std::size(cases) * 2 * walkers.size() + slabs.size();
     std::uint64_t done = 0;
     Observer quiet;  // of each row's own walks
     for (const Case& one : cases)
@@ -148,6 +213,17 @@ JobResult runBenchTransport(const Job& job, Engine& engine, Observer& observer) 
                 result.text += fmt::format(" {:>9}\n", meritText(row["merit_total"]));
                 document["rows"].push_back(std::move(row));
             }
+    result.text += fmt::format("{:20} {:10} {:>9} {:>12} {:>9} {:>9} {:>9}\n", "slab", "", "walks/s", "collisions/s",
+                               "merit R", "T", "A");
+    for (const SlabCase& one : slabs) {
+        if (observer.cancelled()) throw interruptedError();
+        observer.progress("bench", done++, total, "rows");
+        Json row = slabRow(one, seconds, job.seed);
+        result.text += fmt::format("{:20} {:10} {:9.3g} {:12.3g} {:>9} {:>9} {:>9}\n", one.name, "analogue",
+                                   row["walks_per_s"].get<double>(), row["collisions_per_s"].get<double>(),
+                                   meritText(row["merit_R"]), meritText(row["merit_T"]), meritText(row["merit_A"]));
+        document["slabs"].push_back(std::move(row));
+    }
     document["threads"] = hardwareThreads();
     document["speedup"] = speedup(seconds, quiet);
     result.text += fmt::format("{} threads walk {:.2f} times as fast as one ({})\n", hardwareThreads(),
@@ -162,7 +238,7 @@ JobResult runBenchTransport(const Job& job, Engine& engine, Observer& observer) 
 Command benchTransportCommand() {
     return {
         .name = "bench transport",
-        .summary = "Time the walks of the half-space, and say what each estimator is worth",
+        .summary = "Time the walks of half-space and slabs, and say what each estimator is worth",
         .example = "searchlight bench transport --json",
         .options =
             {{.name = "seconds", .unit = "s", .min = 0.01, .max = 3600, .value = 2.0, .doc = "CPU time of each row"},

@@ -65,7 +65,7 @@ Command mcmlCommand() {
         .name = "mcml",
         .summary = "Walk the runs of an MCML input file and write its output files",
         .example = "searchlight mcml sample.mci",
-        .options = {{.name = "input", .type = ParamType::path, .doc = "an .mci file, version 1.0", .required = true},
+        .options = {{.name = "input", .type = ParamType::path, .doc = "an .mci file, version 1.0 or 2.0", .required = true},
                     option::walks(1e6, "walks", "random walks of every run; absent: the photons of the file"),
                     option::threads()},
         .positional = "input",

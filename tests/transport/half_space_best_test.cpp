@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "exact.h"
+#include "transport/half_space/guided_walk.h"
 #include "transport/half_space/importance.h"
 #include "transport/half_space/single_scattering.h"
 
@@ -39,11 +40,28 @@ TEST(HalfSpaceBest, AnnuliAgreeWithTheExactSearchlight) {
     judge.expectAgreement();
 }
 
+// The total is known then; the standard error is the rounding of sums.
 TEST(HalfSpaceBest, WithoutAbsorptionEverythingLeaves) {
+    const Estimate matched = walk(ofAlbedo(1), 1e4, 54, {0, 10}, best).all.total;
+    EXPECT_NEAR(matched.mean, 1, 1e-12);
+    EXPECT_LT(matched.standard_error, 1e-6);
+    const Estimate refractive = walk(ofAlbedo(1, 1.4, 0.5), 1e4, 55, {0, 10}, best).all.total;
+    EXPECT_NEAR(refractive.mean, 1 - std::pow(0.4 / 2.4, 2), 1e-12);
+    EXPECT_LT(refractive.standard_error, 1e-6);
+}
+
+// What guided walks find is then 1 on average, with weights from the roulette of long walks alone.
+TEST(HalfSpaceBest, GuidedWalksWithoutAbsorptionAllLeave) {
     Judge judge;
-    judge.compare("matched", walk(ofAlbedo(1), 1e4, 54, {0, 10}, best).all.total, 1);
-    judge.compare("index 1.4, g 0.5", walk(ofAlbedo(1, 1.4, 0.5), 1e4, 55, {0, 10}, best).all.total,
-                  1 - std::pow(0.4 / 2.4, 2));
+    for (const double eta : {1.0, 1.4}) {
+        BatchRatios sums(1);
+        constexpr std::uint64_t walks = 200;
+        for (std::uint64_t chunk = 0; chunk < 50; ++chunk) {
+            const GuidedSums all = walkGuidedChunk(GuidedWalk({.absorbed = 0, .eta = eta}), 7, chunk, walks);
+            sums.add({&all.total, 1}, static_cast<double>(walks));
+        }
+        judge.compare("guided", sums.estimate(0, 50 * walks), 1);
+    }
     judge.expectAgreement();
 }
 

@@ -130,7 +130,8 @@ private:
         hn::Store(hn::IfThenElse(takes, to.w, from.w), d, lanes_.w + at);
         hn::Store(hn::IfThenElse(takes, weight, old_weight), d, lanes_.weight + at);
         const IntV scattered = hn::VecFromMask(di, hn::RebindMask(di, takes));
-        hn::Store(hn::Add(hn::Load(di, lanes_.order + at), scattered), di, lanes_.order + at);
+        const IntV order = hn::Add(hn::Load(di, lanes_.order + at), scattered);
+        hn::Store(hn::Max(order, hn::Set(di, -kEndlessWalk)), di, lanes_.order + at);
         hn::Store(random.s0, dw, lanes_.s0 + at / 2);
         hn::Store(random.s1, dw, lanes_.s1 + at / 2);
         return !hn::AllFalse(d, hn::Lt(z, zero));

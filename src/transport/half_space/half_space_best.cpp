@@ -5,7 +5,7 @@
 // without bound), and comes with its opposite azimuth; 16 lanes share it (ways_out-inl.h). What crosses the surface
 // later was counted already: only the reflected part goes on.
 //
-// Importance: weight times importance below 0.3 meets a roulette, above 2 the walk is split (importance.h).
+// Importance: weight times importance below 0.6 meets a roulette, above 2 the walk is split (importance.h).
 //
 // Order 1 is exact at normal incidence.
 //
@@ -17,6 +17,8 @@
 #include <cmath>
 #include <cstring>
 #include <memory>
+
+#include "transport/walk/long_walk.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "transport/half_space/half_space_best.cpp"
@@ -37,8 +39,8 @@ namespace HWY_NAMESPACE {
 constexpr std::size_t kCopies = 16;
 constexpr int kFlushSteps = 256;  // floats hold no more than so many additions a pack
 // Without absorption a walk has no mean length: beyond so many collisions its importance falls as their inverse.
-constexpr std::int32_t kLongWalk = 1 << 13;
-constexpr float kRoulette = 0.3f, kSplit = 2.0f;
+constexpr std::int32_t kFadingWalk = 1 << 13;
+constexpr float kRoulette = 0.6f, kSplit = 2.0f;
 constexpr float kMostParts = 16;
 static_assert(kSplit >= 2, "a split makes at least two parts");
 
@@ -197,7 +199,7 @@ private:
                        hn::IfThenElseZero(crosses, hn::Sub(pack.weight, reflected)));
         }
         pack.weight = hn::IfThenElse(crosses, reflected, pack.weight);
-        pack.order = hn::Add(pack.order, hn::Set(di, 1));
+        pack.order = hn::Min(hn::Add(pack.order, hn::Set(di, 1)), hn::Set(di, kEndlessWalk));
         // The first two collisions are common to all walks: finish() counts what they absorb.
         const FloatM absorbs = hn::RebindMask(d, hn::Gt(pack.order, hn::Set(di, 2)));
         pack.weight = hn::IfThenElse(absorbs, hn::Mul(pack.weight, hn::Set(d, albedo_)), pack.weight);
@@ -298,6 +300,11 @@ private:
         const Float d;
         const Int di;
         const LaneBins& bins = plan_.bins;
+        if (bins.per_length > 0) {
+            const FloatV place = hn::Mul(hn::Sqrt(r2), hn::Set(d, bins.per_length));
+            const FloatV most = hn::Set(d, static_cast<float>(bins.next_edge.size() - 2));
+            return hn::Add(hn::ConvertTo(di, hn::Min(place, most)), hn::Set(di, 1));
+        }
         const IntV last = hn::Set(di, static_cast<int>(bins.first_slot.size()) - 1);
         const IntV cell = hn::Sub(hn::ShiftRightSame(hn::BitCast(di, r2), bins.shift), hn::Set(di, bins.first_cell));
         IntV slot = hn::GatherIndex(di, bins.first_slot.data(), hn::Min(hn::Max(cell, hn::Zero(di)), last));
@@ -321,9 +328,9 @@ private:
         const IntV row = cell(hn::MulAdd(pack.z, pack.z, offset));
         const IntV index = hn::Add(hn::Mul(row, hn::Set(di, ImportanceTable::kCells)), column);
         const FloatV importance = hn::GatherIndex(d, plan_.importance.value.data(), index);
-        const hn::Mask<Int> is_long = hn::Gt(pack.order, hn::Set(di, kLongWalk));
+        const hn::Mask<Int> is_long = hn::Gt(pack.order, hn::Set(di, kFadingWalk));
         if (HWY_LIKELY(hn::AllFalse(di, is_long))) return importance;
-        const FloatV fade = hn::Div(hn::Set(d, static_cast<float>(kLongWalk)), hn::ConvertTo(d, pack.order));
+        const FloatV fade = hn::Div(hn::Set(d, static_cast<float>(kFadingWalk)), hn::ConvertTo(d, pack.order));
         return hn::IfThenElse(hn::RebindMask(d, is_long), hn::Mul(importance, fade), importance);
     }
 

@@ -24,6 +24,7 @@ struct LaneBins {
     std::int32_t steps = 0;                ///< the most edges within one cell
     std::vector<std::int32_t> first_slot;  ///< per cell: the lowest slot that meets it
     std::vector<float> next_edge;          ///< per slot: the squared edge that ends it; infinity for the last
+    float per_length = 0;                  ///< of bins that are all alike and begin at 0; otherwise 0
 };
 
 /// What all chunks of a job share. Lengths are in mean free paths.

@@ -64,6 +64,11 @@ LaneBins laneBins(std::span<const double> edges) {
             ++slot;
         bins.first_slot.push_back(slot);
     }
+    const double last_edge = edges.back(), count = static_cast<double>(edges.size() - 1);
+    bool alike = count < 0x1p20;
+    for (std::size_t i = 0; i < edges.size(); ++i)
+        alike &= std::abs(edges[i] - last_edge * static_cast<double>(i) / count) <= 1e-7 * edges[i];
+    if (alike) bins.per_length = static_cast<float>(count / last_edge);
     return bins;
 }
 
@@ -141,7 +146,8 @@ std::uint64_t walkBestChunk(const BestPlan& plan, std::uint64_t seed, std::uint6
         one.r2 = n * plan.single->r2;
     }
     if (led == 0) return collisions;
-    more.flux[0] = scale * all.total - one.flux[0];
+    // Without absorption everything leaves.
+    more.flux[0] = (plan.walk.absorbed == 0 ? n : scale * all.total) - one.flux[0];
     more.x = scale * all.x - one.x;
     more.r2 = scale * all.r2 - one.r2;
     if (plan.counts_beyond) {

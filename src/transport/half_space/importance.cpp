@@ -13,7 +13,10 @@ namespace searchlight {
 namespace {
 
 // What the total counts beside the rings: more would follow walks into depths from which no bin hears of them.
-constexpr double kTotal = 0.05;
+constexpr double kTotal = 0.02;
+
+// Rings count by this power of their radius: what is far is harder to know.
+constexpr double kFar = 0.4;
 
 // Rate at which light dies out far from its source, per reduced mean free path: the largest kappa in
 // albedo = kappa / atanh(kappa), exact for isotropic scattering, and near enough for others.
@@ -77,10 +80,11 @@ ImportanceTable makeImportanceTable(const HalfSpaceWalk& walk, std::span<const d
     constexpr int rings = 8;
     const double low = std::clamp(edges.front() * reduced_rate, nearest, farthest);
     const double high = std::clamp(edges.back() * reduced_rate, low, farthest);
-    double radii[rings], reference[rings];
+    double radii[rings], reference[rings], part[rings], parts = 0;
     for (int k = 0; k < rings; ++k) {
         radii[k] = low * std::pow(high / low, static_cast<double>(k) / (rings - 1));
         reference[k] = dipole.ring(radii[k], 0, 1);
+        parts += part[k] = std::pow(radii[k], kFar);
     }
 
     ImportanceTable table;
@@ -101,8 +105,8 @@ ImportanceTable makeImportanceTable(const HalfSpaceWalk& walk, std::span<const d
             const double leaves = kTotal * std::exp(-dipole.decay * z);
             double square = leaves * leaves;
             for (int k = 0; k < rings; ++k) {
-                const double gain = dipole.ring(radii[k], rho, z + 0.5) / reference[k];
-                square += gain * gain / rings;
+                const double gain = dipole.ring(radii[k], rho, z + 0.25) / reference[k];
+                square += part[k] / parts * gain * gain;
             }
             // Bounds keep weights, their inverse, from running away.
             table.value.push_back(static_cast<float>(std::clamp(std::sqrt(square), 1e-5, 1e3)));

@@ -2,101 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <cstdio>
-#include <optional>
 #include <set>
 
-#include "base/error.h"
 #include "base/text.h"
+#include "transport/mcml/data_lines.h"
+#include "transport/mcml/mci_version_2.h"
 
 namespace searchlight {
 
 namespace {
-
-struct Word {
-    std::string_view text;
-    int line = 0, column = 0;
-};
-
-// Words of the lines that hold any; # starts a comment.
-class DataLines {
-public:
-    DataLines(std::string_view text, std::string_view path) : path_(path) {
-        int number = 0;
-        for (std::string_view line : split(text, '\n')) {
-            ++number;
-            line = line.substr(0, line.find('#'));
-            std::vector<Word> words;
-            for (std::size_t at = 0; (at = line.find_first_not_of(" \t\r\f\v", at)) != std::string_view::npos;) {
-                const std::size_t end = std::min(line.find_first_of(" \t\r\f\v", at), line.size());
-                words.push_back({line.substr(at, end - at), number, static_cast<int>(at) + 1});
-                at = end;
-            }
-            if (!words.empty()) lines_.push_back(std::move(words));
-        }
-        last_line_ = number;
-    }
-
-    Error error(const Word& word, std::string message, std::string hint = {}) const {
-        return inputError(std::move(message), std::move(hint)).at(path_, word.line, word.column);
-    }
-
-    /// The next line, which holds exactly so many words; `what` names them in messages.
-    const std::vector<Word>& take(std::size_t count, std::string_view what) {
-        const std::vector<Word>& line = take(what);
-        if (line.size() < count)
-            throw error(line.back(), fmt::format("{} of {} values of {}", line.size(), count, what));
-        if (line.size() > count)
-            throw error(line[count], fmt::format("'{}' after {}", line[count].text, what), "# starts a comment");
-        return line;
-    }
-
-    const std::vector<Word>& take(std::string_view what) {
-        if (done())
-            throw inputError(fmt::format("the file ends before {}", what)).at(path_, std::max(last_line_, 1), 1);
-        return lines_[next_++];
-    }
-
-    bool done() const { return next_ == lines_.size(); }
-    const std::vector<Word>& peek() const { return lines_[next_]; }
-
-    double number(const Word& word, std::string_view what) const {
-        const std::optional<double> value = parseNumber(word.text);
-        if (!value) throw error(word, fmt::format("'{}' is no number", word.text), fmt::format("expected {}", what));
-        return *value;
-    }
-
-    /// Within [min, max]; NaN has no text.
-    double number(const Word& word, std::string_view what, double min, double max) const {
-        const double value = number(word, what);
-        if (value < min || value > max)
-            throw error(word, fmt::format("{} is {}", what, word.text),
-                        max >= 1e15 ? fmt::format("at least {}", numberText(min))
-                                    : fmt::format("{} to {}", numberText(min), numberText(max)));
-        return value;
-    }
-
-    double positive(const Word& word, std::string_view what) const {
-        const double value = number(word, what);
-        if (!(value > 0)) throw error(word, fmt::format("{} is {}", what, word.text), "above 0");
-        return value;
-    }
-
-    double whole(const Word& word, std::string_view what, double max) const {
-        const double value = number(word, what, 1, max);
-        if (value != std::floor(value)) throw error(word, fmt::format("{} is {}", what, word.text), "a whole number");
-        return value;
-    }
-
-private:
-    std::string path_;
-    std::vector<std::vector<Word>> lines_;
-    std::size_t next_ = 0;
-    int last_line_ = 0;
-};
-
-constexpr double kMostCells = 32767;  // per direction: MCML counts in short integers
 
 McmlRun readRun(DataLines& lines) {
     McmlRun run;
@@ -112,10 +26,10 @@ McmlRun readRun(DataLines& lines) {
     run.dz = lines.positive(steps[0], "dz");
     run.dr = lines.positive(steps[1], "dr");
     const std::vector<Word>& counts = lines.take(3, "nz nr na");
-    run.nz = static_cast<int>(lines.whole(counts[0], "nz", kMostCells));
-    run.nr = static_cast<int>(lines.whole(counts[1], "nr", kMostCells));
-    run.na = static_cast<int>(lines.whole(counts[2], "na", kMostCells));
-    const double layers = lines.whole(lines.take(1, "number of layers")[0], "the number of layers", kMostCells);
+    run.nz = static_cast<int>(lines.whole(counts[0], "nz", kMostMcmlCells));
+    run.nr = static_cast<int>(lines.whole(counts[1], "nr", kMostMcmlCells));
+    run.na = static_cast<int>(lines.whole(counts[2], "na", kMostMcmlCells));
+    const double layers = lines.whole(lines.take(1, "number of layers")[0], "the number of layers", kMostMcmlCells);
     run.n_above = lines.positive(lines.take(1, "n above")[0], "n above");
     while (run.layers.size() < static_cast<std::size_t>(layers)) {
         const std::vector<Word>& words = lines.take(5, fmt::format("n mua mus g d of layer {}", run.layers.size() + 1));
@@ -183,11 +97,10 @@ void takeName(DataLines& lines, std::string_view name) {
 std::vector<McmlRun> parseMci(std::string_view text, std::string_view path) {
     DataLines lines(text, path);
     const Word version = lines.take(1, "the file version")[0];
-    if (version.text.starts_with("mcmli"))
-        throw lines.error(version, fmt::format("'{}' is a file of MCML 2", version.text), "version 1.0 is read");
+    if (version.text == "mcmli2.0") return parseMciVersion2(lines);
     if (version.text != "1.0")
-        throw lines.error(version, fmt::format("unknown version '{}'", version.text), "version 1.0 is read");
-    const double count = lines.whole(lines.take(1, "number of runs")[0], "the number of runs", kMostCells);
+        throw lines.error(version, fmt::format("unknown version '{}'", version.text), "1.0 and mcmli2.0 are read");
+    const double count = lines.whole(lines.take(1, "number of runs")[0], "the number of runs", kMostMcmlCells);
     std::vector<McmlRun> runs;
     std::set<std::string> outputs;
     while (runs.size() < static_cast<std::size_t>(count)) {

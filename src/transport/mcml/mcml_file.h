@@ -1,4 +1,5 @@
-// The files of MCML version 1: .mci in, .mco out ([Wang1995]). Everything here is in the units of those files: cm.
+// The files of MCML version 1, and the input of version 2: .mci in, .mco out ([Wang1995]). Everything here is in the
+// units of those files: cm.
 #pragma once
 
 #include <cstdint>
@@ -47,8 +48,9 @@ struct McmlOutput {
     std::vector<double> Rd_ra, Tt_ra;  ///< nr x na, 1/(cm^2 sr)
 };
 
-/// Reads an .mci file of version 1.0. Throws an input Error with file, line and column for anything that MCML itself
-/// would read as something else than it says: missing or further values, two runs with one output, data left over.
+/// Reads an .mci file of version 1.0, or of 2.0 (mci_version_2.h says what is refused there). Throws an input Error
+/// with file, line and column for anything that MCML itself would read as something else than it says: missing or
+/// further values, two runs with one output, data left over.
 std::vector<McmlRun> parseMci(std::string_view text, std::string_view path);
 
 /// The text that parseMci reads back as the same runs.
