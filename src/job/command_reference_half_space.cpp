@@ -13,6 +13,7 @@
 #include "job/saved_walks.h"
 #include "job/shared_options.h"
 #include "transport/half_space/exact_half_space.h"
+#include "transport/half_space/ordinate_half_space.h"
 
 namespace searchlight {
 
@@ -113,10 +114,13 @@ void refuseExact(const Options& options, const Subject& subject) {
         throw usageError("--exact has no --beam", "the exact profile is that of a pencil beam");
     for (int c = 0; c < subject.medium.channels; ++c) {
         if (!subject.medium.scatters(c)) continue;
-        const std::string reason = whyNotExact(halfSpaceProblem(subject.medium, c, options.number("angle_deg")));
-        if (!reason.empty())
-            throw usageError(fmt::format("{} has no exact solution: {}", subject.name, reason),
-                             "--exact takes eta 1, g 0 and normal incidence; without it the problem is walked");
+        const HalfSpaceProblem problem = halfSpaceProblem(subject.medium, c, options.number("angle_deg"));
+        const std::string reason = whyNotOrdinates(problem);
+        if (!whyNotExact(problem).empty() && !reason.empty())
+            throw usageError(
+                fmt::format("{} has no exact solution: {}", subject.name, reason),
+                "--exact takes normal incidence, |g| up to 0.5, eta 0.7 to 2 and albedo up to 0.99999; without "
+                "it the problem is walked");
     }
 }
 
@@ -157,17 +161,17 @@ JobResult runReferenceHalfSpace(const Job& job, Engine& engine, Observer& observ
     reference.threads = static_cast<int>(options.number("threads"));
     if (options.text("estimator") == "analogue") reference.estimator = Estimator::analogue;
     option::requireGridExtent(options);
-    reference.beam = beamOf(options);
-    reference.white = options.toggle("white");
-    if (reference.white) refuseWhite(options);
-    reference.exact = options.toggle("exact");
-    if (reference.exact) refuseExact(options, subject);
     if (options.text("backend") == "gl") {
         refuseGl(options);
         reference.estimator = Estimator::analogue;
         reference.gl = &engine.context();
     }
-    if (reference.edges_mm.empty()) reference.edges_mm = plotEdges(subject.medium, 0, 100);
+    reference.beam = beamOf(options);
+    reference.white = options.toggle("white");
+    if (reference.white) refuseWhite(options);
+    reference.exact = options.toggle("exact");
+    if (reference.exact) refuseExact(options, subject);
+    if (reference.edges_mm.empty() && !reference.exact) reference.edges_mm = plotEdges(subject.medium, 0, 100);
     SavedWalks saved(options, job, problemJson(subject.medium, reference), Rgb::channels);
     if (reference.white || reference.exact)
         for (const char* name : {"resume", "until_error"})
@@ -290,7 +294,8 @@ Command referenceHalfSpaceCommand() {
                  {.name = "exact",
                   .type = ParamType::toggle,
                   .value = false,
-                  .doc = "solve without walks: eta 1, g 0, normal incidence; stderr then bounds the numerical error"},
+                  .doc = "solve without walks: normal incidence, |g| up to 0.5, eta 0.7 to 2; stderr then bounds the "
+                         "numerical error"},
                  option::walkBackend(),
                  option::threads(),
                  option::untilError("total and profile"),

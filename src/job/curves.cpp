@@ -10,6 +10,8 @@
 #include "base/text.h"
 #include "model/plane.h"
 #include "transport/half_space/exact_half_space.h"
+#include "transport/half_space/ordinate_half_space.h"
+#include "transport/walk/radial_edges.h"
 
 namespace searchlight {
 
@@ -72,7 +74,10 @@ ReferenceRun runReference(const Medium& medium, const ReferenceOptions& options,
     ReferenceRun run;
     run.medium = medium;
     run.angle_deg = options.angle_deg;
-    run.edges_mm = options.edges_mm.empty() ? plotEdges(medium, 0, 100) : options.edges_mm;
+    run.edges_mm = options.edges_mm;
+    // What is solved begins at 0.02 mean free paths from the beam.
+    if (run.edges_mm.empty())
+        run.edges_mm = options.exact ? linearEdges(50, plotEdges(medium, 0, 1).back()) : plotEdges(medium, 0, 100);
     for (int c = 0; c < medium.channels; ++c) {
         if (!medium.scatters(c) || (medium.channels > 1 && !options.only[c])) continue;
         HalfSpaceProblem problem = halfSpaceProblem(medium, c, options.angle_deg);
@@ -84,7 +89,8 @@ ReferenceRun runReference(const Medium& medium, const ReferenceOptions& options,
             continue;
         }
         if (options.exact) {
-            run.channels[static_cast<std::size_t>(c)] = solveHalfSpace(problem, run.edges_mm);
+            run.channels[static_cast<std::size_t>(c)] =
+                solveAnyHalfSpace(problem, run.edges_mm, options.threads, observer);
             continue;
         }
         HalfSpaceOptions walk;

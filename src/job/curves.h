@@ -43,7 +43,7 @@ struct ReferenceOptions {
     gl::Context* gl = nullptr;  ///< walk there, by the analogue
     BeamShape beam;             ///< a wide one is walked by the analogue
     bool white = false;         ///< from tables of walks without absorption, in the user's cache; no grid, no estimator
-    bool exact = false;         ///< solved without walks, where whyNotExact() is empty
+    bool exact = false;         ///< solved without walks, where whyNotExact() or whyNotOrdinates() is empty
     bool only[Rgb::channels] = {true, true, true};    ///< channels to walk
     std::function<WalkControl(int channel)> control;  ///< of the walks; may be empty
     std::vector<double> strip_edges_mm;               ///< cells of the strip about the plane of incidence; empty: none

@@ -162,14 +162,19 @@ ExactOrders exactTotal(double sigma_a, double sigma_s, double mu0) {
     return {{all, error}, {single, error * single}, {all - single, error}};
 }
 
-ExactHalfSpace::ExactHalfSpace(double sigma_a, double sigma_s, const ExactQuadrature& quadrature)
-    : sigma_t_(sigma_a + sigma_s) {
+ExactHalfSpace::ExactHalfSpace(HankelSolution solution) : solution_(std::move(solution)) {}
+
+ExactHalfSpace::ExactHalfSpace(double sigma_a, double sigma_s, const ExactQuadrature& quadrature) {
     const Phase phase = phaseOf(sigma_a, sigma_s);
-    absorbs_ = phase.absorbed > 0;
-    multiple_total_ = exactTotal(sigma_a, sigma_s, 1).multiple.mean;
+    solution_.sigma_t = sigma_a + sigma_s;
+    solution_.absorbs = phase.absorbed > 0;
+    solution_.multiple_total = exactTotal(sigma_a, sigma_s, 1).multiple.mean;
+    solution_.multiple_total_error = 10 * kEpsilon;
+    solution_.single_error = kNodeError;
+    solution_.smallest_radius = kSmallestRadius;
     // Where K0 ceases to decay, on the far side of the contour. Measured: up to 180 of this, beyond 50 diffusion
     // lengths; so 1000.
-    contour_error_ = 1000 * std::exp(-2 * pi * (0.5 * pi - quadrature.tilt) / quadrature.step);
+    solution_.contour_error = 1000 * std::exp(-2 * pi * (0.5 * pi - quadrature.tilt) / quadrature.step);
 
     const double diffusion_rate = phase.diffusionRate();
     const double last = std::log(2 * kLargestRate / diffusion_rate);
@@ -177,7 +182,8 @@ ExactHalfSpace::ExactHalfSpace(double sigma_a, double sigma_s, const ExactQuadra
         const Complex v(i * quadrature.step, -quadrature.tilt);
         const Complex rate = diffusion_rate * std::cosh(v);
         const Complex transform = multipleTransform(phase, rate, diffusion_rate, quadrature.step);
-        contour_.push_back({rate, (i == 0 ? 0.5 : 1) * quadrature.step * diffusion_rate * std::sinh(v) * transform});
+        solution_.contour.push_back(
+            {rate, (i == 0 ? 0.5 : 1) * quadrature.step * diffusion_rate * std::sinh(v) * transform});
     }
 
     // Single scattering at depth t leaves at r with exp(-t - sqrt(r^2 + t^2)) = exp(-tau r), tau from 1 to infinity.
@@ -185,78 +191,104 @@ ExactHalfSpace::ExactHalfSpace(double sigma_a, double sigma_s, const ExactQuadra
     const double dx = 2.5 * quadrature.step;
     for (int i = static_cast<int>(-28 / dx); i * dx < 40; ++i) {
         const double above = std::exp(i * dx), tau = 1 + above, square = tau * tau + 1;
-        single_.push_back({tau, phase.albedo * dx * above * above * (2 + above) / (square * square)});
+        solution_.single.push_back({tau, phase.albedo * dx * above * above * (2 + above) / (square * square)});
     }
 }
 
-ExactOrders ExactHalfSpace::total() const { return flux(0, std::numeric_limits<double>::infinity()); }
-ExactOrders ExactHalfSpace::within(double r_mm) const { return flux(0, r_mm * sigma_t_); }
+ExactOrders ExactHalfSpace::total() const {
+    double single = 0;
+    for (const HankelSolution::Single& node : solution_.single) single += node.weight / node.rate;
+    return orders({single, solution_.single_error * single},
+                  {solution_.multiple_total, solution_.multiple_total_error});
+}
+ExactOrders ExactHalfSpace::within(double r_mm) const { return flux(0, r_mm * solution_.sigma_t); }
 ExactOrders ExactHalfSpace::beyond(double r_mm) const {
-    return flux(r_mm * sigma_t_, std::numeric_limits<double>::infinity());
+    return flux(r_mm * solution_.sigma_t, std::numeric_limits<double>::infinity());
 }
 
 ExactOrders ExactHalfSpace::annulusRd(double inner_mm, double outer_mm) const {
     const double area = pi * (outer_mm - inner_mm) * (outer_mm + inner_mm);
-    return scaled(flux(inner_mm * sigma_t_, outer_mm * sigma_t_), 1 / area);
+    return scaled(flux(inner_mm * solution_.sigma_t, outer_mm * solution_.sigma_t), 1 / area);
 }
 
 ExactOrders ExactHalfSpace::Rd(double r_mm) const {
-    const double r = r_mm * sigma_t_;
-    if (!(r >= kSmallestRadius))
+    const double r = r_mm * solution_.sigma_t;
+    if (!(r >= solution_.smallest_radius))
         throw inputError(fmt::format("the exitance at {} mm is asked for; it grows as 1/r towards the beam", r_mm),
-                         fmt::format("at least {} mean free paths", kSmallestRadius));
+                         fmt::format("at least {:.3g} mean free paths", solution_.smallest_radius));
     double single = 0;
-    for (const Single& node : single_) single += node.weight * std::exp(-node.rate * r);
+    for (const HankelSolution::Single& node : solution_.single) single += node.weight * std::exp(-node.rate * r);
     single /= 2 * pi * r;
     double multiple = 0, size = 0;
-    for (const Node& node : contour_) {
-        const Complex term = node.weight * node.rate * besselK(node.rate * r).K0;
-        multiple -= term.imag() / (pi * pi);
-        size += std::abs(term) / (pi * pi);
-        if ((node.rate - contour_.front().rate).real() * r > kNegligible) break;
+    Complex doubt = 0;
+    for (const HankelSolution::Node& node : solution_.contour) {
+        const Complex wave = node.rate * besselK(node.rate * r).K0 / (pi * pi), term = node.weight * wave;
+        multiple -= term.imag();
+        size += std::abs(term);
+        doubt += node.doubt * wave;
+        if ((node.rate - solution_.contour.front().rate).real() * r > kNegligible) break;
     }
     const double rounding = kNodeError + kEpsilon * r;
-    return scaled(orders({single, rounding * single},
-                         {multiple, rounding * size + contour_error_ * multiple_total_ / (pi * r * r)}),
-                  sigma_t_ * sigma_t_);
+    return scaled(orders({single, (solution_.single_error + kEpsilon * r) * single},
+                         {multiple, std::abs(doubt) + rounding * size +
+                                        solution_.contour_error * solution_.multiple_total / (pi * r * r)}),
+                  solution_.sigma_t * solution_.sigma_t);
 }
 
 // Between two radii in mean free paths; the outer one may be infinite.
 ExactOrders ExactHalfSpace::flux(double inner, double outer) const {
+    if (inner == 0 && solution_.ends_early) {
+        if (std::isinf(outer)) return total();
+        const ExactOrders all = total(), rest = flux(outer, std::numeric_limits<double>::infinity());
+        const auto left = [](const Estimate& whole, const Estimate& part) {
+            return Estimate{whole.mean - part.mean, whole.standard_error + part.standard_error};
+        };
+        return orders(left(all.single, rest.single), left(all.multiple, rest.multiple));
+    }
     double single = 0;
-    for (const Single& node : single_)
+    for (const HankelSolution::Single& node : solution_.single)
         single -= node.weight / node.rate * std::exp(-node.rate * inner) * std::expm1(-node.rate * (outer - inner));
     const auto rK1 = [](Complex rate, double r) {
         if (std::abs(rate) * r < 1e-9) return 1.0 / rate;  // the next term is 1e-17 of it
         return rate.real() * r > 700 ? Complex() : r * besselK(rate * r).K1;
     };
     double multiple = 0, size = 0, cancelled = 0;
-    for (const Node& node : contour_) {
-        if ((node.rate - contour_.front().rate).real() * inner > kNegligible) break;
+    Complex doubt = 0;
+    for (const HankelSolution::Node& node : solution_.contour) {
+        if ((node.rate - solution_.contour.front().rate).real() * inner > kNegligible) break;
         const Complex from_inner = rK1(node.rate, inner), from_outer = rK1(node.rate, outer);
-        const Complex term = 2 / pi * node.weight * (from_inner - from_outer);
+        const Complex wave = 2 / pi * (from_inner - from_outer), term = node.weight * wave;
         multiple -= term.imag();
+        doubt += node.doubt * wave;
         size += std::abs(term);
         cancelled += std::abs(2 / pi * node.weight * from_inner);
     }
     const double rounding = kNodeError + kEpsilon * inner;
-    return orders({single, rounding * single},
-                  {multiple, rounding * size + 4 * kEpsilon * cancelled + contour_error_ * multiple_total_});
+    return orders({single, (solution_.single_error + kEpsilon * inner) * single},
+                  {multiple, std::abs(doubt) + rounding * size + 4 * kEpsilon * cancelled +
+                                 solution_.contour_error * solution_.multiple_total});
 }
 
 ExactOrders ExactHalfSpace::meanR2() const {
     double single = 0, multiple = 0, size = 0;
-    for (const Single& node : single_) single += 2 * node.weight / (node.rate * node.rate * node.rate);
-    for (const Node& node : contour_) {
-        const Complex term = 8 / pi * node.weight / (node.rate * node.rate * node.rate);
+    Complex doubt = 0;
+    for (const HankelSolution::Single& node : solution_.single)
+        single += 2 * node.weight / (node.rate * node.rate * node.rate);
+    for (const HankelSolution::Node& node : solution_.contour) {
+        const Complex wave = 8 / pi / (node.rate * node.rate * node.rate), term = node.weight * wave;
         multiple -= term.imag();
+        doubt += node.doubt * wave;
         size += std::abs(term);
     }
-    if (!absorbs_) multiple = std::numeric_limits<double>::infinity();
-    const ExactOrders sum = orders({single, kNodeError * single}, {multiple, kNodeError * size}), flux = total();
+    if (!solution_.absorbs) multiple = std::numeric_limits<double>::infinity();
+    const ExactOrders sum = orders({single, solution_.single_error * single},
+                                   {multiple, std::abs(doubt) + kNodeError * size}),
+                      flux = total();
     const auto mean = [&](const Estimate& moment, const Estimate& of) {
-        const double unit = 1 / (of.mean * sigma_t_ * sigma_t_);
-        return Estimate{moment.mean * unit, moment.standard_error * unit + kNodeError * moment.mean * unit};
+        const double unit = 1 / (of.mean * solution_.sigma_t * solution_.sigma_t);
+        const double relative = of.mean > 0 ? of.standard_error / of.mean : 0;
+        return Estimate{moment.mean * unit,
+                        moment.standard_error * unit + (kNodeError + relative) * moment.mean * unit};
     };
     return {mean(sum.all, flux.all), mean(sum.single, flux.single), mean(sum.multiple, flux.multiple)};
 }
@@ -271,12 +303,17 @@ std::string whyNotExact(const HalfSpaceProblem& problem) {
 HalfSpaceResult solveHalfSpace(const HalfSpaceProblem& problem, const std::vector<double>& edges_mm) {
     if (const std::string reason = whyNotExact(problem); !reason.empty())
         throw inputError("no exact solution: " + reason, "eta 1, g 0, normal incidence; or walk it");
+    const auto start = std::chrono::steady_clock::now();
+    HalfSpaceResult result = tallyExact(ExactHalfSpace(problem.sigma_a, problem.sigma_s), edges_mm);
+    result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return result;
+}
+
+HalfSpaceResult tallyExact(const ExactHalfSpace& exact, const std::vector<double>& edges_mm) {
     if (edges_mm.size() < 2) throw inputError("radial bins need at least 2 edges");
     if (!(edges_mm.front() >= 0 && std::isfinite(edges_mm.back())) ||
         !std::ranges::is_sorted(edges_mm, std::ranges::less_equal()))
         throw inputError("the edges of the radial bins do not ascend from 0 or more");
-    const auto start = std::chrono::steady_clock::now();
-    const ExactHalfSpace exact(problem.sigma_a, problem.sigma_s);
     HalfSpaceResult result;
     // Each member of ExactOrders with the tally that it belongs to.
     const std::pair<Estimate ExactOrders::*, HalfSpaceTally*> tallies[] = {{&ExactOrders::all, &result.all},
@@ -297,7 +334,6 @@ HalfSpaceResult solveHalfSpace(const HalfSpaceProblem& problem, const std::vecto
         }
     }
     result.threads = 1;
-    result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return result;
 }
 

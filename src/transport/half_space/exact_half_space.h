@@ -23,6 +23,30 @@ struct ExactQuadrature {
     double tilt = std::numbers::pi / 4;  ///< of the contour from the branch cut, above 0, at most pi/4
 };
 
+/// A half-space in Hankel space: what the profile is put together from. Lengths are in mean free paths.
+struct HankelSolution {
+    /// A node of the contour: transverse decay rate, and weight times transform of two and more scatters.
+    struct Node {
+        std::complex<double> rate, weight;
+        std::complex<double> doubt = {};  ///< how far the weight may be off; its phase counts, as neighbours err alike
+    };
+    /// Of single scattering, whose exitance is the sum of weight exp(-rate r) over 2 pi r.
+    struct Single {
+        double rate, weight;
+    };
+
+    double sigma_t = 1;  ///< 1/mm
+    bool absorbs = true;
+    double multiple_total = 0, multiple_total_error = 0;
+    /// The contour ends before the flux at the beam does, which is then what the total leaves.
+    bool ends_early = false;
+    double contour_error = 0;    ///< what the step of the contour leaves, as a part of the total
+    double single_error = 0;     ///< relative
+    double smallest_radius = 0;  ///< that the contour resolves
+    std::vector<Node> contour;
+    std::vector<Single> single;
+};
+
 /// Solves once on construction (about 50 ms, 130 ms without absorption), after which a radius costs 30 microseconds.
 /// Errors are stated with each number: below 1e-10 relative out to 20 diffusion lengths, 1e-7 to 40; farther out an
 /// exitance below 1e-30 of the total drowns.
@@ -31,9 +55,12 @@ public:
     /// Coefficients in 1/mm; the medium may be free of absorption. Throws an input Error unless both are finite,
     /// not negative, and not both 0.
     ExactHalfSpace(double sigma_a, double sigma_s, const ExactQuadrature& quadrature = {});
+    /// One that was solved elsewhere, such as by solveOrdinates().
+    explicit ExactHalfSpace(HankelSolution solution);
 
     ExactOrders total() const;
-    /// Exitance, 1/mm^2; it grows as 1/r towards the beam. Throws an input Error below 1e-7 mean free paths.
+    /// Exitance, 1/mm^2; it grows as 1/r towards the beam. Throws an input Error below the
+    /// smallest radius, here 1e-7 mean free paths.
     ExactOrders Rd(double r_mm) const;
     /// Flux that leaves within r >= 0: the encircled power.
     ExactOrders within(double r_mm) const;
@@ -45,23 +72,10 @@ public:
     ExactOrders meanR2() const;
 
 private:
-    // Nodes of the contour: transverse decay rate in units of sigma_t, and weight times transform.
-    struct Node {
-        std::complex<double> rate, weight;
-    };
-    // Nodes over the rates tau of single scattering, exp(-tau r).
-    struct Single {
-        double rate, weight;
-    };
-
     // Lengths in mean free paths; `outer` may be infinite.
     ExactOrders flux(double inner, double outer) const;
 
-    double sigma_t_, multiple_total_;
-    bool absorbs_;
-    double contour_error_;  // what the step leaves, as a part of the total
-    std::vector<Node> contour_;
-    std::vector<Single> single_;
+    HankelSolution solution_;
 };
 
 /// Diffuse reflectance of the same half-space for light that arrives at the cosine mu0, 0 < mu0 <= 1, by orders.
@@ -74,5 +88,8 @@ std::string whyNotExact(const HalfSpaceProblem& problem);
 /// The tallies of walkHalfSpace without a walk; a standard error is a bound of the numerical error. Throws an input
 /// Error for a problem without an exact solution and for edges that do not ascend from 0 or more.
 HalfSpaceResult solveHalfSpace(const HalfSpaceProblem& problem, const std::vector<double>& edges_mm);
+
+/// The tallies of one that is solved; edges: at least 2, ascending from 0 or more, else an input Error.
+HalfSpaceResult tallyExact(const ExactHalfSpace& exact, const std::vector<double>& edges_mm);
 
 }  // namespace searchlight

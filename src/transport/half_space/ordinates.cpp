@@ -1,0 +1,342 @@
+// With k along x, directions (mu, phi) of both hemispheres and q = 1 - rate s cos(phi), s = sqrt(1 - mu^2), light of
+// wavefront exp(i k x) that goes down (d) and up (u) obeys
+//   mu d' = -q d + a (P+ d + P- u) + a p(mu) exp(-z),   -mu u' = -q u + a (P- d + P+ u) + a p(-mu) exp(-z):
+// the sources are the beam's first scattering. The half-space answers what comes down by u = R d + v exp(-z), where
+// R = (Z - 1) (Z + 1)^-1 and Z is the corner of the sign function of ((0, M+), (M-, 0)), M+- = (q - a (P+ -+ P-)) / mu:
+// the modes that decay downwards, [Roberts1980]. The surface sends d = F u down again.
+//
+// What has been scattered once or twice varies with phi as fast as q, which no few directions follow: these two orders
+// are taken off as the same directions have them, and put back as they are. The azimuths are crowded about those across
+// k, where q varies, in proportion to 1 / |rate|.
+#include "transport/half_space/ordinates.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "transport/walk/fresnel.h"
+
+namespace searchlight {
+
+namespace {
+
+using Complex = std::complex<double>;
+using std::numbers::pi;
+using Matrix = Eigen::MatrixXcd;
+using Vector = Eigen::VectorXcd;
+
+constexpr int kMostSteps = 60;  // of Newton's iteration; 20 were seen at rates of 1e3
+constexpr double kSmallestMoment = 1e-9;
+
+struct Rule {
+    std::vector<double> x, weight;
+};
+
+// Gauss-Legendre on [0, 1].
+Rule gauss(int n) {
+    Rule rule;
+    for (int i = 0; i < n; ++i) {
+        double z = std::cos(pi * (i + 0.75) / (n + 0.5)), slope = 1;
+        for (int step = 0; step < 20; ++step) {
+            double before = 1, at = z;
+            for (int k = 2; k <= n; ++k) {
+                const double next = ((2 * k - 1) * z * at - (k - 1) * before) / k;
+                before = at;
+                at = next;
+            }
+            if (n == 1) before = 1;
+            slope = n * (z * at - before) / (z * z - 1);
+            z -= at / slope;
+        }
+        rule.x.push_back(0.5 * (1 - z));
+        rule.weight.push_back(1 / ((1 - z * z) * slope * slope));
+    }
+    return rule;
+}
+
+double henyeyGreenstein(double g, double cosine) {
+    const double d = 1 + g * g - 2 * g * cosine;
+    return (1 - g * g) / (4 * pi * d * std::sqrt(d));
+}
+
+// Directions of one hemisphere, mirrored at the plane of k: a weight holds both.
+struct Directions {
+    struct Cosine {
+        double mu, weight;
+    };
+
+    // Cosines of the hemisphere, and so many azimuths at each.
+    Directions(const OrdinateMedium& medium, const std::vector<Cosine>& cosines, int azimuths, Complex rate) {
+        const Rule rule = gauss(azimuths);
+        for (const Cosine& at : cosines) {
+            const double sine = std::sqrt((1 - at.mu) * (1 + at.mu));
+            const double width = std::min(1.0, 1 / (std::abs(rate) * sine + 1e-300)),
+                         end = std::asinh(0.5 * pi / width);
+            const double reflectance = medium.eta == 1 ? 0 : internalReflectance(medium.eta, at.mu);
+            for (std::size_t j = 0; j < rule.x.size(); ++j) {
+                // From the direction across k.
+                const double x = end * (2 * rule.x[j] - 1), angle = width * std::sinh(x);
+                mu.push_back(at.mu);
+                weight.push_back(at.weight * 4 * end * rule.weight[j] * width * std::cosh(x));
+                F.push_back(reflectance);
+                along.push_back(sine * std::sin(angle));
+                across.push_back(sine * std::cos(angle));
+                phi.push_back(0.5 * pi - angle);
+                Q.push_back((1.0 - rate * along.back()) / at.mu);
+            }
+        }
+    }
+
+    std::size_t size() const { return mu.size(); }
+
+    std::vector<double> mu, weight, F, along, across, phi;
+    std::vector<Complex> Q;  // q / mu
+};
+
+std::vector<Directions::Cosine> cosinesOf(const OrdinateMedium& medium, const OrdinateCount& count) {
+    std::vector<Directions::Cosine> cosines;
+    const double critical = criticalCosine(medium.eta);
+    const Rule escaping = gauss(count.escaping);
+    if (critical == 0) {
+        for (std::size_t i = 0; i < escaping.x.size(); ++i) cosines.push_back({escaping.x[i], escaping.weight[i]});
+        return cosines;
+    }
+    const Rule reflected = gauss(count.reflected);
+    for (std::size_t i = 0; i < reflected.x.size(); ++i)
+        cosines.push_back({critical * reflected.x[i], critical * reflected.weight[i]});
+    // The square smooths the root in T at the critical cosine.
+    for (std::size_t i = 0; i < escaping.x.size(); ++i) {
+        const double x = escaping.x[i];
+        cosines.push_back({critical + (1 - critical) * x * x, 2 * (1 - critical) * x * escaping.weight[i]});
+    }
+    return cosines;
+}
+
+// Three parts: crowded towards the normal, where s is of the size of 1 / |rate|; up to the critical angle; beyond it.
+std::vector<Directions::Cosine> fineCosines(const OrdinateMedium& medium, int count, Complex rate) {
+    const double critical = std::acos(criticalCosine(medium.eta)), middle = 0.5 * critical;
+    const double width = std::min(1.0, 1 / (std::abs(rate) + 1e-300)), end = std::asinh(middle / width);
+    std::vector<Directions::Cosine> cosines;
+    const Rule rule = gauss(count);
+    const auto add = [&](double angle, double weight) {
+        cosines.push_back({std::cos(angle), std::sin(angle) * weight});
+    };
+    for (std::size_t i = 0; i < rule.x.size(); ++i) {
+        const double x = rule.x[i], w = rule.weight[i];
+        add(width * std::sinh(end * x), end * width * std::cosh(end * x) * w);
+        add(critical - (critical - middle) * x * x, 2 * (critical - middle) * x * w);
+        const double mu = std::cos(critical) * x;
+        if (medium.eta > 1) cosines.push_back({mu, std::cos(critical) * w});
+    }
+    return cosines;
+}
+
+// sqrt((l - m)! / (l + m)!) P_l^m(x) for l up to `last`; 0 below m.
+std::vector<double> legendre(int m, int last, double x) {
+    std::vector<double> p(static_cast<std::size_t>(last) + 1, 0.0);
+    const double sine = std::sqrt((1 - x) * (1 + x));
+    double diagonal = 1;
+    for (int k = 1; k <= m; ++k) diagonal *= sine * std::sqrt((2 * k - 1.0) / (2 * k));
+    const auto at = [&](int l) -> double& { return p[static_cast<std::size_t>(l)]; };
+    if (m <= last) at(m) = diagonal;
+    if (m + 1 <= last) at(m + 1) = x * std::sqrt(2 * m + 1.0) * diagonal;
+    for (int l = m + 2; l <= last; ++l)
+        at(l) = ((2 * l - 1) * x * at(l - 1) - std::sqrt((l - 1.0 - m) * (l - 1.0 + m)) * at(l - 2)) /
+                std::sqrt((static_cast<double>(l) - m) * (static_cast<double>(l) + m));
+    return p;
+}
+
+// The phase function between the directions, and from the beam into them.
+struct Scattering {
+    Eigen::MatrixXd same, other;   // hemispheres, 1/sr
+    std::vector<double> down, up;  // from the beam
+};
+
+// The harmonics are made orthonormal on the directions, lowest first: scattering then has exactly the eigenvalues g^l,
+// so that no energy is lost and the diffusion length is right however few the directions. Harmonics that are even and
+// odd in mu do not meet.
+Scattering scatteringOf(const OrdinateMedium& medium, const Directions& directions, std::size_t azimuths) {
+    const auto n = static_cast<Eigen::Index>(directions.size());
+    const auto cosines = static_cast<int>(directions.size() / azimuths);
+    int last = 0;
+    if (medium.g != 0)
+        last =
+            std::min(2 * cosines - 2, static_cast<int>(std::log(kSmallestMoment) / std::log(std::abs(medium.g))) + 1);
+    Scattering scattering;
+    scattering.down.assign(directions.size(), 0.0);
+    scattering.up = scattering.down;
+    Eigen::MatrixXd kernels[2];
+    for (int parity = 0; parity < 2; ++parity) {
+        struct Harmonic {
+            int l, m;
+        };
+        std::vector<Harmonic> harmonics;
+        for (int l = 0; l <= last; ++l)
+            for (int m = 0; m <= l; ++m)
+                if ((l + m) % 2 == parity) harmonics.push_back({l, m});
+        kernels[parity] = Eigen::MatrixXd::Zero(n, n);
+        if (harmonics.size() > directions.size()) harmonics.resize(directions.size());
+        if (harmonics.empty()) continue;
+        const auto count = static_cast<Eigen::Index>(harmonics.size());
+        Eigen::MatrixXd values(n, count);
+        Eigen::VectorXd moments(count);
+        for (Eigen::Index h = 0; h < count; ++h) {
+            const auto [l, m] = harmonics[static_cast<std::size_t>(h)];
+            moments[h] = std::pow(medium.g, l);
+            const double norm = std::sqrt((2 * l + 1) / (4 * pi) * (m > 0 ? 2 : 1) * 2);
+            double p = 0;
+            for (std::size_t i = 0; i < directions.size(); ++i) {
+                if (i % azimuths == 0) p = legendre(m, l, directions.mu[i]).back();
+                values(static_cast<Eigen::Index>(i), h) =
+                    std::sqrt(directions.weight[i]) * norm * p * std::cos(m * directions.phi[i]);
+            }
+        }
+        const Eigen::HouseholderQR<Eigen::MatrixXd> qr(values);
+        Eigen::MatrixXd basis = qr.householderQ() * Eigen::MatrixXd::Identity(n, count);
+        for (Eigen::Index h = 0; h < count; ++h)
+            if (qr.matrixQR()(h, h) < 0) basis.col(h) *= -1;
+        kernels[parity] = basis * moments.asDiagonal() * basis.transpose();
+        for (Eigen::Index h = 0; h < count; ++h) {
+            const auto [l, m] = harmonics[static_cast<std::size_t>(h)];
+            if (m > 0) continue;
+            for (std::size_t i = 0; i < directions.size(); ++i) {
+                const double part = moments[h] * std::sqrt((2 * l + 1) / (4 * pi)) *
+                                    basis(static_cast<Eigen::Index>(i), h) / std::sqrt(2 * directions.weight[i]);
+                scattering.down[i] += part;
+                scattering.up[i] += parity == 0 ? part : -part;
+            }
+        }
+    }
+    Eigen::VectorXd scale(n);
+    for (Eigen::Index i = 0; i < n; ++i) scale[i] = 1 / std::sqrt(2 * directions.weight[static_cast<std::size_t>(i)]);
+    scattering.same = scale.asDiagonal() * (kernels[0] + kernels[1]) * scale.asDiagonal();
+    scattering.other = scale.asDiagonal() * (kernels[0] - kernels[1]) * scale.asDiagonal();
+    return scattering;
+}
+
+// Z of the comment above: Newton's iteration for the sign, with determinants as scale. Modes decay where the continued
+// square root of their eigenvalue leads from k = 0 to here: all of them in the half plane about the middle of q.
+Matrix decayingModes(Matrix plus, Matrix minus, Complex rate) {
+    const Complex turn = std::polar(1.0, -0.5 * (std::arg(1.0 - rate) + std::arg(1.0 + rate)));
+    plus *= turn;
+    minus *= turn;
+    const double n = static_cast<double>(plus.rows());
+    for (int step = 0; step < kMostSteps; ++step) {
+        const Eigen::PartialPivLU<Matrix> plus_lu(plus), minus_lu(minus);
+        double log_size = 0;
+        for (Eigen::Index i = 0; i < plus.rows(); ++i)
+            log_size += std::log(std::abs(plus_lu.matrixLU()(i, i))) + std::log(std::abs(minus_lu.matrixLU()(i, i)));
+        const double scale = std::exp(-log_size / (2 * n));
+        const Matrix next = 0.5 * (scale * plus + minus_lu.inverse() / scale);
+        minus = 0.5 * (scale * minus + plus_lu.inverse() / scale);
+        const double change = (next - plus).norm() / next.norm();
+        plus = next;
+        if (change < 1e-9) break;  // quadratic: what is left is below rounding
+    }
+    return plus;
+}
+
+// Twice: down and on, or up and on, or up, down from the surface, and on.
+Complex secondOrder(const OrdinateMedium& medium, const Directions& to, std::size_t i, const Directions& from,
+                    std::size_t j, double same, double other, double down, double up) {
+    const Complex first = up / (from.Q[j] + 1.0), last = 1.0 / (to.Q[i] + 1.0);
+    return medium.albedo * medium.albedo * from.weight[j] / from.mu[j] *
+           (other * (down * last + from.F[j] * first) / (to.Q[i] + from.Q[j]) + same * first * last);
+}
+
+}  // namespace
+
+Complex secondOrderTransform(const OrdinateMedium& medium, const OrdinateCount& count, Complex rate) {
+    const Directions at(medium, fineCosines(medium, count.second_panel, rate), count.second_azimuths, rate);
+    const double g = medium.g;
+    std::vector<double> down, up;
+    for (const double mu : at.mu) {
+        down.push_back(henyeyGreenstein(g, mu));
+        up.push_back(henyeyGreenstein(g, -mu));
+    }
+    Complex sum = 0;
+    for (std::size_t i = 0; i < at.size(); ++i) {
+        if (at.F[i] == 1) continue;
+        Complex inner = 0;
+        for (std::size_t j = 0; j < at.size(); ++j) {
+            double same = 1 / (4 * pi), other = same;
+            if (g != 0) {
+                // Mean over both sides of the plane of k.
+                const double normal = at.mu[i] * at.mu[j], along = at.along[i] * at.along[j];
+                const double across = at.across[i] * at.across[j];
+                same =
+                    0.5 * (henyeyGreenstein(g, normal + along + across) + henyeyGreenstein(g, normal + along - across));
+                other = 0.5 *
+                        (henyeyGreenstein(g, -normal + along + across) + henyeyGreenstein(g, -normal + along - across));
+            }
+            inner += secondOrder(medium, at, i, at, j, same, other, down[j], up[j]);
+        }
+        sum += at.weight[i] * (1 - at.F[i]) * inner;
+    }
+    return sum;
+}
+
+Complex ordinateTransform(const OrdinateMedium& medium, const OrdinateCount& count, Complex rate) {
+    const auto azimuths = static_cast<std::size_t>(count.azimuths);
+    const Directions at(medium, cosinesOf(medium, count), count.azimuths, rate);
+    const Scattering scattering = scatteringOf(medium, at, azimuths);
+    const auto n = static_cast<Eigen::Index>(at.size());
+    const double a = medium.albedo;
+    Matrix alpha(n, n), beta(n, n);
+    Vector down(n), up(n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+        const auto to = static_cast<std::size_t>(i);
+        for (Eigen::Index j = 0; j < n; ++j) {
+            const double part = a * at.weight[static_cast<std::size_t>(j)] / at.mu[to];
+            alpha(i, j) = -part * scattering.same(i, j);
+            beta(i, j) = part * scattering.other(i, j);
+        }
+        alpha(i, i) += at.Q[to];
+        down[i] = a * scattering.down[to] / at.mu[to];
+        up[i] = a * scattering.up[to] / at.mu[to];
+    }
+    const Matrix one = Matrix::Identity(n, n), modes = decayingModes(alpha + beta, alpha - beta, rate);
+    const Matrix reflection = (modes + one).transpose().partialPivLu().solve((modes - one).transpose()).transpose();
+    Vector leaving = (alpha + one - reflection * beta).partialPivLu().solve(up + reflection * down);
+    if (medium.eta != 1) {
+        Matrix surface = one;
+        for (Eigen::Index j = 0; j < n; ++j) surface.col(j) -= at.F[static_cast<std::size_t>(j)] * reflection.col(j);
+        leaving = surface.partialPivLu().solve(leaving);
+    }
+    Complex sum = 0;
+    for (Eigen::Index i = 0; i < n; ++i) {
+        const auto to = static_cast<std::size_t>(i);
+        if (at.F[to] == 1) continue;
+        Complex two = 0;
+        for (Eigen::Index j = 0; j < n; ++j) {
+            const auto from = static_cast<std::size_t>(j);
+            two += secondOrder(medium, at, to, at, from, scattering.same(i, j), scattering.other(i, j),
+                               scattering.down[from], scattering.up[from]);
+        }
+        const Complex once = up[i] / (at.Q[to] + 1.0);
+        sum += at.weight[to] * (1 - at.F[to]) * (at.mu[to] * (leaving[i] - once) - two);
+    }
+    return sum + secondOrderTransform(medium, count, rate);
+}
+
+double diffusionRate(const OrdinateMedium& medium) {
+    if (medium.albedo >= 1) return 0;
+    // The determinant by its continued fraction; its sign changes at the rate.
+    const auto balance = [&](double rate) {
+        double rest = 0;
+        for (int l = 400; l >= 1; --l)
+            rest = static_cast<double>(l) * l * rate * rate /
+                   ((2 * l + 1) * (1 - medium.albedo * std::pow(medium.g, l)) - rest);
+        return 1 - medium.albedo - rest;
+    };
+    double low = 1e-12, high = 1;
+    for (int i = 0; i < 100; ++i) {
+        const double middle = std::sqrt(low * high);
+        (balance(middle) > 0 ? low : high) = middle;
+    }
+    return low;
+}
+
+}  // namespace searchlight
