@@ -11,6 +11,7 @@ Command profileCommand();
 Command invertCommand();
 Command convertCommand();
 Command fitCommand();
+Command kernelCommand();
 Command referenceHalfSpaceCommand();
 Command referenceSlabCommand();
 Command referenceSphereCommand();

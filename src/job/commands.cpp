@@ -12,6 +12,7 @@ std::span<const Command> commands() {
         invertCommand(),
         convertCommand(),
         fitCommand(),
+        kernelCommand(),
         referenceHalfSpaceCommand(),
         referenceSlabCommand(),
         referenceSphereCommand(),

@@ -47,6 +47,33 @@ std::vector<Rgb> Judge::imageRms(const Taps& taps, bool turned) const {
     return errors;
 }
 
+double Judge::bestWidth(const Taps& taps) const {
+    const double side = static_cast<double>(inputs_.front().width) * pixel_mm_;
+    const auto error = [&](double width) {
+        double sum = 0;
+        // Edges in three directions: power over the frequency's logarithm falls as 1 / omega.
+        for (double omega = std::numbers::pi / side; omega < std::numbers::pi / pixel_mm_; omega *= std::exp2(0.25))
+            for (const double angle : {0.13, 0.39, 0.65}) {
+                const Rgb difference =
+                    tapsTransform(taps, omega * std::cos(angle), omega * std::sin(angle), width) - spectrum_(omega);
+                for (int c = 0; c < Rgb::channels; ++c) sum += difference[c] * difference[c] / omega;
+            }
+        return sum;
+    };
+    double best = 1, least = error(1);
+    const auto look = [&](double from, double ratio, int count) {
+        for (int i = 0; i < count; ++i) {
+            const double width = from * std::pow(ratio, i), value = error(width);
+            if (value >= least) continue;
+            least = value;
+            best = width;
+        }
+    };
+    look(1e-3, 1.15, 100);
+    look(best / 1.15, 1.01, 29);
+    return best;
+}
+
 double Judge::overall(const std::vector<Rgb>& image_rms) {
     double sum = 0;
     for (const Rgb& rms : image_rms)

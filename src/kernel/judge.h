@@ -24,6 +24,10 @@ public:
     /// within [0, 1].
     std::vector<Rgb> imageRms(const Taps& taps, bool turned = false) const;
 
+    /// The width at which the taps err least in pictures of edges, between 1/1000 and 1000: what a kernel in other
+    /// units, or for another size, would have to be scaled by.
+    double bestWidth(const Taps& taps) const;
+
     /// One number: over all signals and channels.
     static double overall(const std::vector<Rgb>& image_rms);
 

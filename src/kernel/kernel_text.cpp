@@ -94,8 +94,7 @@ std::string tables(const Taps& taps, const KernelLabel& label, const Syntax& syn
 }
 
 std::string hlsl(const Taps& taps, const KernelLabel& label) {
-    return tables(taps, label,
-                  {"static const float4 {name}[{count}] = {{\n", "    float4({r}, {g}, {b}, {x})", "};\n"},
+    return tables(taps, label, {"static const float4 {name}[{count}] = {{\n", "    float4({r}, {g}, {b}, {x})", "};\n"},
                   middleFirst);
 }
 
