@@ -36,11 +36,6 @@ using Words = std::array<std::pair<std::string_view, Value>, size>;
 constexpr Words<FilterAxes, 2> axes_words{{{"surface", FilterAxes::surface}, {"screen", FilterAxes::screen}}};
 constexpr Words<FilterTrust, 3> trust_words{
     {{"distance", FilterTrust::distance}, {"depth", FilterTrust::depth}, {"all", FilterTrust::all}}};
-constexpr Words<Thickness, 4> thickness_words{{{"nearest", Thickness::nearest},
-                                               {"material", Thickness::material},
-                                               {"outermost", Thickness::outermost},
-                                               {"none", Thickness::nothing}}};
-
 template <class Value, std::size_t size>
 std::vector<std::string> wordsOf(const Words<Value, size>& words) {
     std::vector<std::string> list;
@@ -94,9 +89,7 @@ public:
         const auto back_begin = Clock::now();
         if (light || material || changed("thickness"))
             back_ = backLight(*input.visible, *input.scene, *input.object, *input.rays, *input.profile,
-                              {.thickness = chosen(thickness_words, options, "thickness"),
-                               .eta = input.medium->eta,
-                               .threads = input.threads},
+                              {.thickness = thicknessOf(options), .eta = input.medium->eta, .threads = input.threads},
                               observer);
         if (view || changed("strength")) {
             const auto& path = std::get<std::string>(options.find("strength")->second);
@@ -187,46 +180,43 @@ std::vector<Param> separableOptions() {
         param.doc = std::move(doc);
         return param;
     };
-    return {
-        choice("kernel", methodNames(), "the separable kernel that stands for R_d"),
-        {.name = "rank",
-         .type = ParamType::integer,
-         .min = 1,
-         .max = 12,
-         .value = 1.0,
-         .doc = "terms of the kernel, two passes each: of svd, gaussians and optimised"},
-        {.name = "taps",
-         .type = ParamType::integer,
-         .min = 3,
-         .max = 101,
-         .value = 17.0,
-         .doc = "samples of the kernel per pass, an odd number"},
-        {.name = "placed",
-         .type = ParamType::toggle,
-         .value = false,
-         .doc = "samples stand where they serve best, instead of quadratically"},
-        {.name = "k",
-         .min = 0,
-         .max = 4,
-         .value = 1.0,
-         .doc = "of guided kernels: 0 favours the middle, 2 the far field"},
-        choice("axes", wordsOf(axes_words), "along what the filter steps: the tangent plane, or the picture"),
-        choice("trust", wordsOf(trust_words),
-               "what makes a pixel that lies off the kernel's plane count less: its distance or its depth"),
-        {.name = "reach", .min = 0.01, .max = 1000, .value = 6.0, .doc = "of that, in mean offsets of the kernel"},
-        {.name = "fallback",
-         .min = 0,
-         .max = 1,
-         .value = 0.9,
-         .doc = "of the middle's light, what stands for a place that is not seen or not trusted"},
-        {.name = "kernel_width", .min = 0, .max = 100, .value = 1.0, .doc = "times the width of the kernel"},
-        {.name = "strength",
-         .type = ParamType::text,
-         .value = std::string("none"),
-         .doc = "a picture over the texture coordinates: times the width, place by place; or none"},
-        choice("thickness", wordsOf(thickness_words),
-               "how far it is to where light came in that shines through: to the nearest way out, or to the surface "
-               "that the light sees, without the gaps or with them")};
+    return {choice("kernel", methodNames(), "the separable kernel that stands for R_d"),
+            {.name = "rank",
+             .type = ParamType::integer,
+             .min = 1,
+             .max = 12,
+             .value = 1.0,
+             .doc = "terms of the kernel, two passes each: of svd, gaussians and optimised"},
+            {.name = "taps",
+             .type = ParamType::integer,
+             .min = 3,
+             .max = 101,
+             .value = 17.0,
+             .doc = "samples of the kernel per pass, an odd number"},
+            {.name = "placed",
+             .type = ParamType::toggle,
+             .value = false,
+             .doc = "samples stand where they serve best, instead of quadratically"},
+            {.name = "k",
+             .min = 0,
+             .max = 4,
+             .value = 1.0,
+             .doc = "of guided kernels: 0 favours the middle, 2 the far field"},
+            choice("axes", wordsOf(axes_words), "along what the filter steps: the tangent plane, or the picture"),
+            choice("trust", wordsOf(trust_words),
+                   "what makes a pixel that lies off the kernel's plane count less: its distance or its depth"),
+            {.name = "reach", .min = 0.01, .max = 1000, .value = 6.0, .doc = "of that, in mean offsets of the kernel"},
+            {.name = "fallback",
+             .min = 0,
+             .max = 1,
+             .value = 0.9,
+             .doc = "of the middle's light, what stands for a place that is not seen or not trusted"},
+            {.name = "kernel_width", .min = 0, .max = 100, .value = 1.0, .doc = "times the width of the kernel"},
+            {.name = "strength",
+             .type = ParamType::text,
+             .value = std::string("none"),
+             .doc = "a picture over the texture coordinates: times the width, place by place; or none"},
+            thicknessOption()};
 }
 
 std::unique_ptr<Technique> makeSeparable(gl::Context* context) { return std::make_unique<Separable>(context); }

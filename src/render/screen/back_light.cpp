@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <string_view>
+#include <utility>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -18,6 +20,11 @@ namespace searchlight {
 namespace {
 
 constexpr std::size_t block = 256;
+constexpr std::pair<std::string_view, Thickness> words[] = {{"nearest", Thickness::nearest},
+                                                            {"material", Thickness::material},
+                                                            {"outermost", Thickness::outermost},
+                                                            {"none", Thickness::nothing}};
+
 // A line through more walls than that is followed no further.
 constexpr int most_walls = 64;
 
@@ -160,6 +167,20 @@ private:
 };
 
 }  // namespace
+
+Param thicknessOption() {
+    Param param{.name = "thickness", .type = ParamType::choice, .value = std::string(words[0].first)};
+    for (const auto& [word, thickness] : words) param.choices.emplace_back(word);
+    param.doc =
+        "how far it is to where light came in that shines through: to the nearest way out, or to the surface that the "
+        "light sees, without the gaps or with them";
+    return param;
+}
+
+Thickness thicknessOf(const ParamValues& options) {
+    const auto& given = std::get<std::string>(options.find("thickness")->second);
+    return std::ranges::find(words, given, &std::pair<std::string_view, Thickness>::first)->second;
+}
 
 std::vector<Rgbf> backLight(const VisibleSurface& visible, const Scene& scene, const Object& object,
                             const RayScene& rays, const Profile& profile, const BackLightOptions& options,

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/observer.h"
+#include "base/param.h"
 #include "geometry/object.h"
 #include "geometry/rays.h"
 #include "model/profile.h"
@@ -21,6 +22,10 @@ enum class Thickness : std::uint8_t {
     material,   ///< to that surface, without the gaps: rays count what they leave and enter
     nearest,    ///< to where the line leaves the object for the first time; that place may lie in shadow
 };
+
+/// The option of techniques that chooses one, and what it says.
+Param thicknessOption();
+Thickness thicknessOf(const ParamValues& options);
 
 struct BackLightOptions {
     Thickness thickness = Thickness::nearest;

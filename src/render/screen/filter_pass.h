@@ -35,7 +35,7 @@ struct FilterTerm {
 
 std::vector<FilterTerm> filterTerms(const Taps& taps);
 
-/// 1 / (reach meanOffset() width), 1/mm; 0 where that is infinite.
+/// 1 / (reach meanOffset() width), 1/mm, at most 1e12.
 float perReach(const Taps& taps, const FilterOptions& options);
 
 struct FilterPass {

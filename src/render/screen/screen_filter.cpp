@@ -180,14 +180,17 @@ void filterPart(const FilterPass& pass, std::size_t begin, std::size_t end) {
         const FloatV width = pass.strength.empty() ? hn::Set(d, pass.width)
                                                    : hn::Mul(hn::Set(d, pass.width), hn::LoadU(d, &pass.strength[i]));
         const FloatV nearest = hn::Mul(hn::Set(d, FilterPass::nearest), position.z);
-        // The cell that the sample lies in.
+        // The cell that the sample lies in. Its middle is where taps are counted from, also where the sample lies
+        // beside it, at an outline: a tap that does not move is the sample's own pixel.
         const FloatV per_depth = hn::Div(focal, position.z);
-        const auto cellOf = [&](FloatV from, FloatV middle_of, FloatV last) HWY_ATTR {
-            const FloatV at = hn::Floor(hn::Add(hn::MulAdd(per_depth, from, middle_of), hn::Set(d, 0.5f)));
-            return hn::Min(hn::Max(zero, at), last);
+        const FloatV own_x = hn::MulAdd(per_depth, position.x, middle_x);
+        const FloatV own_y = hn::MulAdd(per_depth, position.y, middle_y);
+        const auto cellOf = [&](FloatV own, FloatV last) HWY_ATTR {
+            return hn::Min(hn::Max(zero, hn::Floor(hn::Add(own, hn::Set(d, 0.5f)))), hn::Floor(last));
         };
-        const FloatV column = cellOf(position.x, middle_x, hn::Floor(last_x));
-        const FloatV row = cellOf(position.y, middle_y, hn::Floor(last_y));
+        const FloatV column = cellOf(own_x, last_x), row = cellOf(own_y, last_y);
+        const FloatV from_x = hn::Add(middle_x, hn::Sub(column, own_x));
+        const FloatV from_y = hn::Add(middle_y, hn::Sub(row, own_y));
         // What taps bring, and what is left to the middle.
         FloatV r = zero, g = zero, b = zero;
         const Rgbf middle = pass.line->middle;
@@ -215,20 +218,20 @@ void filterPart(const FilterPass& pass, std::size_t begin, std::size_t end) {
             };
             Texel texels[2][2];
             if (course == FilterLine::Course::row) {
-                const FloatV x = place(axis.x, position.x, middle_x, last_x);
+                const FloatV x = place(axis.x, position.x, from_x, last_x);
                 const FloatV left = hn::Floor(x), fx = hn::Sub(x, left);
                 lookUp<1, 2>(grid, hn::ConvertTo(di, left), hn::ConvertTo(di, row), texels);
                 add_texel(texels[0][0], left, row, hn::Sub(one, fx));
                 add_texel(texels[0][1], hn::Add(left, one), row, fx);
             } else if (course == FilterLine::Course::column) {
-                const FloatV y = place(axis.y, position.y, middle_y, last_y);
+                const FloatV y = place(axis.y, position.y, from_y, last_y);
                 const FloatV top = hn::Floor(y), fy = hn::Sub(y, top);
                 lookUp<2, 1>(grid, hn::ConvertTo(di, column), hn::ConvertTo(di, top), texels);
                 add_texel(texels[0][0], column, top, hn::Sub(one, fy));
                 add_texel(texels[1][0], column, hn::Add(top, one), fy);
             } else {
-                const FloatV x = place(axis.x, position.x, middle_x, last_x);
-                const FloatV y = place(axis.y, position.y, middle_y, last_y);
+                const FloatV x = place(axis.x, position.x, from_x, last_x);
+                const FloatV y = place(axis.y, position.y, from_y, last_y);
                 const FloatV left = hn::Floor(x), fx = hn::Sub(x, left), right = hn::Add(left, one);
                 const FloatV top = hn::Floor(y), fy = hn::Sub(y, top), bottom = hn::Add(top, one);
                 lookUp<2, 2>(grid, hn::ConvertTo(di, left), hn::ConvertTo(di, top), texels);
@@ -318,7 +321,8 @@ double meanOffset(const Taps& taps) {
 
 float perReach(const Taps& taps, const FilterOptions& options) {
     const double reach = options.reach * meanOffset(taps) * options.width;
-    return reach > 0 ? static_cast<float>(1 / reach) : 0.0f;
+    // 1e12: a kernel without a width trusts nothing beside the plane, and squares of it stay finite.
+    return static_cast<float>(1 / std::max(reach, 1e-12));
 }
 
 void ScreenFilter::filter(const ScreenSamples& samples, std::span<const Rgbf> light, const Taps& taps,

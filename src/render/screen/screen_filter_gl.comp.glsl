@@ -54,13 +54,14 @@ void main() {
     vec3 axis = axisOf(position, normal);
     float plane = dot(normal, position), wide = kernel_width * positions[i].w;
     vec2 middle_of = 0.5 * vec2(width, height) + 0.5, end = vec2(width, height) + 0.5;
-    vec2 cell = clamp(floor(focal / position.z * position.xy + middle_of + 0.5), vec2(0.0), floor(end));
+    vec2 own = focal / position.z * position.xy + middle_of;
+    vec2 cell = clamp(floor(own + 0.5), vec2(0.0), floor(end)), from = middle_of + (cell - own);
     vec3 sum = vec3(0.0), rest = middle;
     for (int k = first_tap; k < end_tap; ++k) {
         vec3 weight = taps[k].rgb;
         float offset = wide * taps[k].w;
         float per_z = focal / max(nearest * position.z, position.z + offset * axis.z);
-        vec2 place = clamp(per_z * (position.xy + offset * axis.xy) + middle_of, vec2(0.0), end);
+        vec2 place = clamp(per_z * (position.xy + offset * axis.xy) + from, vec2(0.0), end);
         if (course == 0) place.y = cell.y;
         if (course == 1) place.x = cell.x;
         vec2 corner = floor(place), f = place - corner;
