@@ -31,7 +31,7 @@ public:
     /// The known names that begin as the word at the cursor does.
     QStringList completions() const;
 
-signals:
+Q_SIGNALS:
     void saveWished();
 
 protected:

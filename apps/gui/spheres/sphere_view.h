@@ -28,7 +28,7 @@ public:
     QSize sizeHint() const override { return {620, 280}; }
     QSize minimumSizeHint() const override { return {240, 140}; }
 
-signals:
+Q_SIGNALS:
     void resized();
 
 protected:
