@@ -8,6 +8,7 @@
 #include <QToolButton>
 #include <QTreeWidget>
 
+#include "gl/context.h"
 #include "gui/editor/bssrdf_highlighter.h"
 #include "gui/editor/code_edit.h"
 #include "gui/models/model_files.h"
@@ -163,13 +164,26 @@ TEST_F(DocksTest, AShaderWithoutEndIsMarkedAndTheWindowGoesOn) {
     file.write(edit->toPlainText().toUtf8());
     file.close();
     ModelStatus& status = ModelStatus::of(workspace);
-    status.fileWritten(path.toStdString());
+    workspace.noteModelFile(path);
     EXPECT_TRUE(waitUntil([&] { return status.problem(path.toStdString()); }, 60'000));
     EXPECT_TRUE(waitUntil([&] { return seriesOf(workspace.state().models[0].color); }, 60'000)) << "others go on";
     longest = std::max(longest, beat.elapsed());
     RecordProperty("longest_pause_ms", std::to_string(longest));
     // Nothing of it runs on the window's thread. Two cores are shared with the compiler of shaders: half a second.
     EXPECT_LT(longest, 500);
+}
+
+TEST_F(DocksTest, CurvesComeBackAfterALostContext) {
+    addNewModel(workspace, QStringLiteral("radial"));
+    const int color = workspace.state().activeModel().color;
+    ASSERT_TRUE(waitUntil([&] { return seriesOf(color); }));
+    tasks.start({.lane = "curves", .key = "loss"}, [](TaskContext& context) { context.engine().context().abandon(); });
+    for (const double sigma_a : {0.1, 0.2}) {
+        const std::vector<double> before = seriesOf(color) ? seriesOf(color)->y : std::vector<double>{};
+        workspace.edit(QStringLiteral("Absorption"), {},
+                       [&](State& state) { state.scene.material = {.id = "", .sigma_a = {sigma_a}, .sigma_s = {1}}; });
+        EXPECT_TRUE(waitUntil([&] { return seriesOf(color) && seriesOf(color)->y != before; }));
+    }
 }
 
 TEST_F(DocksTest, ShippedModelsAreReadOnlyUntilCopied) {

@@ -28,8 +28,9 @@ TEST_F(DockPictures, AreTakenInBothThemes) {
         theme.apply(mode);
         for (const char* view : {"profile", "error", "plane", "slice"}) {
             workspace.setOption(QStringLiteral("Plot"), "plot", "view", std::string(view));
-            QTest::qWait(3000);
+            QTest::qWait(2500);
             window.dock(QStringLiteral("plot"))->raise();
+            window.dock(QStringLiteral("models"))->raise();
             QTest::qWait(100);
             window.grab().save(folder + QStringLiteral("/%1_%2.png").arg(QLatin1String(view), tone));
         }

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "../transport/judge.h"
+#include "transport/judge.h"
 #include "geometry/object.h"
 #include "geometry/random_stream.h"
 #include "model/physics.h"

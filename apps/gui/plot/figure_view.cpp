@@ -257,6 +257,7 @@ const Drawing& FigureView::panels() {
         const double scale = std::min(width() / drawing.width, height() / drawing.height);
         if (scale <= best) continue;
         best = scale;
+        drawing.shapes.erase(drawing.shapes.begin());  // the paper
         panels_ = std::move(drawing);
     }
     panels_size_ = size();
@@ -268,7 +269,10 @@ void FigureView::paintPanels(QPainter& painter) {
     const double scale = std::min((width() - 2 * margin) / drawing.width, (height() - 2 * margin) / drawing.height);
     painter.translate(0.5 * (width() - scale * drawing.width), 0.5 * (height() - scale * drawing.height));
     painter.scale(scale, scale);
-    paintShapes(painter, drawing.shapes, figureInk(theme_));
+    // What is white stands on a map's own colours.
+    const InkFunction ink_of = figureInk(theme_);
+    paintShapes(painter, drawing.shapes,
+                [&](std::string_view color) { return color == "#ffffff" ? std::string(color) : ink_of(color); });
 }
 
 void FigureView::paintEvent(QPaintEvent*) {
