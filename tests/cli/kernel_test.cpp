@@ -51,6 +51,27 @@ TEST_F(Kernel, AllMethodsMakeAPage) {
         EXPECT_THAT(page, HasSubstr(part));
 }
 
+TEST_F(Kernel, ErrorsInKernelSpaceAreThoseOfThePublishedTable) {
+    // [Freude2014] Table 6.3, red: pre-integration and guided optimisation over SVD of rank 1, within 20 %. Few walks:
+    // their noise moves the ratios by a few percent.
+    const Output output = run("paper freude2014 --table 6.3 --reference-walks 200000 --json", "XDG_CACHE_HOME=cache");
+    ASSERT_EQ(output.exit_code, 0) << output.err;
+    const json values = json::parse(output.out).at("figures").at(0).at("values");
+    const auto ratio = [&](const char* material, const char* method) {
+        const json& row = values.at(material);
+        return row.at(method).at(0).get<double>() / row.at("svd_1").at(0).get<double>();
+    };
+    const auto expect = [&](const char* material, double preintegrated, double guided) {
+        EXPECT_NEAR(ratio(material, "preintegrated") / preintegrated, 1, 0.2) << material;
+        EXPECT_NEAR(ratio(material, "guided") / guided, 1, 0.2) << material;
+    };
+    expect("apple", 0.120 / 0.057, 0.137 / 0.057);
+    expect("marble", 0.079 / 0.038, 0.090 / 0.038);
+    expect("ketchup", 0.139 / 0.061, 0.141 / 0.061);
+    expect("skin1", 0.074 / 0.035, 0.084 / 0.035);
+    expect("whole_milk", 0.074 / 0.036, 0.084 / 0.036);
+}
+
 TEST_F(Kernel, FaultsOfATableAreAnExitCode) {
     writeFile(
         folder() / "copy.glsl",

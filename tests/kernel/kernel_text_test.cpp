@@ -78,6 +78,12 @@ TEST(KernelText, ExportsReadBackAsTheSameKernel) {
     }
 }
 
+TEST(KernelText, ALineBreakInANameStaysInTheComment) {
+    const Taps taps = originalTaps(SkinModel(), 7);
+    const std::string text = tapsFormats()[0].write(taps, {.material = "a\nfloat4 b;", .truth = "c", .method = "d"});
+    EXPECT_THAT(text, testing::HasSubstr("kernel: a float4 b;\n"));
+}
+
 TEST(KernelText, EnginesGetTheWidthOfTheProfile) {
     const std::string unity = engineProfile("unity", burleyTruth(), {.material = "m", .truth = "t"}, 1.3);
     EXPECT_THAT(unity, testing::HasSubstr("Scattering Color = 1, 0.5, 0\n"));
