@@ -72,11 +72,10 @@ struct alignas(64) LaneRegions {
 // The region of a ball: itself.
 class BallRegions {
 public:
+    static constexpr bool kLooksUp = false;
+
     explicit BallRegions(const Ball& ball) : square_(static_cast<float>(ball.radius() * ball.radius())) {}
     float first() const { return square_; }
-    bool tabulated() const { return false; }
-    void fetch(Vec3f) const {}
-    HWY_INLINE Region at(FloatV x, FloatV y, FloatV z) const { return {x, y, z, x, x, y, z, x}; }
 
 private:
     float square_;
@@ -84,6 +83,8 @@ private:
 
 class MeshRegions {
 public:
+    static constexpr bool kLooksUp = true;
+
     explicit MeshRegions(const MeshBody& mesh)
         : regions_(mesh.regions()),
           table_(reinterpret_cast<const std::int32_t*>(regions_.regions.data())),
@@ -198,7 +199,7 @@ public:
         const auto walks = [](const Group& group) { return group.walking != 0; };
         while (std::ranges::any_of(groups_, walks)) {
             for (Group& group : groups_) advance(group);
-            if (regions_.tabulated()) {
+            if (looksUp()) {
                 for (Group& group : groups_) lookUp(group);
                 cross(groups_);  // few of each: together they fill packets
             } else {
@@ -240,11 +241,23 @@ private:
         group.uncleared = group.walking & ~stay;
         group.ends = ends;
         chunk_.flights += static_cast<std::uint64_t>(std::popcount(group.walking));
-        if (!regions_.tabulated()) return;
-        for (std::uint64_t rest = group.uncleared; rest != 0; rest &= rest - 1) {
-            const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
-            regions_.fetch({after.x[lane], after.y[lane], after.z[lane]});
-            regions_.fetch({before.x[lane], before.y[lane], before.z[lane]});
+        if (looksUp()) fetch(group);
+    }
+
+    bool looksUp() const {
+        if constexpr (Regions::kLooksUp) return regions_.tabulated();
+        return false;
+    }
+
+    // Asks the memory for the regions that lookUp() will read.
+    HWY_INLINE void fetch(const Group& group) {
+        if constexpr (Regions::kLooksUp) {
+            const Lanes &before = group.lanes[now_], &after = group.lanes[now_ ^ 1];
+            for (std::uint64_t rest = group.uncleared; rest != 0; rest &= rest - 1) {
+                const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+                regions_.fetch({after.x[lane], after.y[lane], after.z[lane]});
+                regions_.fetch({before.x[lane], before.y[lane], before.z[lane]});
+            }
         }
     }
 
@@ -256,32 +269,36 @@ private:
 
     // Finds regions for walks that left theirs, and so clears flights.
     HWY_INLINE void lookUp(Group& group) {
-        const Float d;
-        const Int di;
-        const std::size_t width = hn::Lanes(d);
-        HWY_ALIGN std::int32_t list[kLanes];
-        std::size_t count = 0;
-        for (std::uint64_t rest = group.uncleared; rest != 0; rest &= rest - 1) list[count++] = std::countr_zero(rest);
-        while (count % width != 0) list[count] = list[count - 1], ++count;
-        const Lanes &before = from(group), &after = to(group);
-        for (std::size_t i = 0; i < count; i += width) {
-            const IntV at = hn::Load(di, list + i);
-            const auto take = [&](const float* of) { return hn::GatherIndex(d, of, at); };
-            const FloatV px = take(before.x), py = take(before.y), pz = take(before.z);
-            const FloatV qx = take(after.x), qy = take(after.y), qz = take(after.z);
-            // Preferably the region of where the flight ends: the next one begins there.
-            const Region end = regions_.at(qx, qy, qz), begin = regions_.at(px, py, pz);
-            const FloatM useful = end.holds(qx, qy, qz), by_end = hn::And(useful, end.holds(px, py, pz));
-            const FloatM by_begin = hn::And(begin.holds(qx, qy, qz), begin.holds(px, py, pz));
-            const auto choose = [&](FloatV a, FloatV b) { return hn::IfThenElse(useful, a, b); };
-            group.regions.scatter(
-                {choose(end.x, begin.x), choose(end.y, begin.y), choose(end.z, begin.z),
-                 choose(end.square, hn::IfThenElseZero(by_begin, begin.square)), choose(end.nx, begin.nx),
-                 choose(end.ny, begin.ny), choose(end.nz, begin.nz), choose(end.offset, begin.offset)},
-                at);
-            std::uint64_t cleared = bitsOf(hn::Or(by_end, by_begin));
-            for (; cleared != 0; cleared &= cleared - 1)
-                group.uncleared &= ~(std::uint64_t{1} << list[i + static_cast<std::size_t>(std::countr_zero(cleared))]);
+        if constexpr (Regions::kLooksUp) {
+            const Float d;
+            const Int di;
+            const std::size_t width = hn::Lanes(d);
+            HWY_ALIGN std::int32_t list[kLanes];
+            std::size_t count = 0;
+            for (std::uint64_t rest = group.uncleared; rest != 0; rest &= rest - 1)
+                list[count++] = std::countr_zero(rest);
+            while (count % width != 0) list[count] = list[count - 1], ++count;
+            const Lanes &before = from(group), &after = to(group);
+            for (std::size_t i = 0; i < count; i += width) {
+                const IntV at = hn::Load(di, list + i);
+                const auto take = [&](const float* of) { return hn::GatherIndex(d, of, at); };
+                const FloatV px = take(before.x), py = take(before.y), pz = take(before.z);
+                const FloatV qx = take(after.x), qy = take(after.y), qz = take(after.z);
+                // Preferably the region of where the flight ends: the next one begins there.
+                const Region end = regions_.at(qx, qy, qz), begin = regions_.at(px, py, pz);
+                const FloatM useful = end.holds(qx, qy, qz), by_end = hn::And(useful, end.holds(px, py, pz));
+                const FloatM by_begin = hn::And(begin.holds(qx, qy, qz), begin.holds(px, py, pz));
+                const auto choose = [&](FloatV a, FloatV b) { return hn::IfThenElse(useful, a, b); };
+                group.regions.scatter(
+                    {choose(end.x, begin.x), choose(end.y, begin.y), choose(end.z, begin.z),
+                     choose(end.square, hn::IfThenElseZero(by_begin, begin.square)), choose(end.nx, begin.nx),
+                     choose(end.ny, begin.ny), choose(end.nz, begin.nz), choose(end.offset, begin.offset)},
+                    at);
+                std::uint64_t cleared = bitsOf(hn::Or(by_end, by_begin));
+                for (; cleared != 0; cleared &= cleared - 1)
+                    group.uncleared &=
+                        ~(std::uint64_t{1} << list[i + static_cast<std::size_t>(std::countr_zero(cleared))]);
+            }
         }
     }
 
