@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <numbers>
 
 #include "base/error.h"
@@ -167,6 +168,20 @@ TEST(Separable, StrengthNeedsTextureCoordinates) {
         ADD_FAILURE();
     } catch (const Error& error) {
         EXPECT_NE(error.message.find("has no texture coordinates, which a strength map needs"), std::string::npos);
+    }
+    std::filesystem::remove(path);
+}
+
+TEST(Separable, AStrengthIsALengthsFactor) {
+    const std::string path =
+        (std::filesystem::temp_directory_path() / ("negative" + std::to_string(getpid()) + ".pfm")).string();
+    for (const float value : {-1.0f, 2000.0f, std::numeric_limits<float>::quiet_NaN()}) {
+        writeImage(path, {Image(2, 2, {value, value, value, 1})});
+        Renderer renderer(shippedMaterials());
+        renderer.setScene(slabScene());
+        renderer.setSettings(small({{"strength", path}}));
+        Observer observer;
+        EXPECT_THROW(renderer.render(observer), Error) << value;
     }
     std::filesystem::remove(path);
 }
