@@ -98,7 +98,7 @@ JobResult runCheck(const Job& job, const Options& options, const Subject& subjec
         const JudgedKernel best = judgeKernel({.name = name + " *", .taps = std::move(scaled)}, judge, true, 0);
         result.text += fmt::format(
             "{}, line {}: {} taps, {}; offsets taken as mm\n", name, first.line, first.term.offsets_mm.size(),
-            faults.empty() ? std::string("no faults in itself") : fmt::format("{} faults", faults.size()));
+            faults.empty() ? std::string("no faults in itself") : fmt::format("faults: {}", faults.size()));
         for (const std::string& fault : faults) result.text += fmt::format("  {}\n", fault);
         result.text += judgedText({as_is, best});
         result.text += fmt::format("* with its width times {:.3g}, where it is nearest to {}\n\n", width, subject.name);

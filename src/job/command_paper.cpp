@@ -29,31 +29,52 @@ const Paper& findPaper(const std::string& id) {
     throw unknownName(ErrorKind::usage, "paper", id, names);
 }
 
-std::vector<const PaperFigure*> figuresOf(const Paper& paper, const std::vector<std::string>& asked) {
+// One of a paper's figures or tables.
+struct Plate {
+    const PaperFigure* figure = nullptr;
+    const char* kind = "figure";
+    const char* stem = "fig";
+};
+
+void addPlates(const Paper& paper, const std::vector<PaperFigure>& figures, const std::vector<std::string>& asked,
+               Plate plate, std::vector<Plate>& plates) {
     std::vector<std::string> names;
-    for (const PaperFigure& figure : paper.figures) names.push_back(figure.id);
-    std::vector<const PaperFigure*> found;
+    for (const PaperFigure& figure : figures) names.push_back(figure.id);
     for (const std::string& id : asked == std::vector<std::string>{"all"} ? names : asked) {
-        const auto figure = std::ranges::find(paper.figures, id, &PaperFigure::id);
-        if (figure == paper.figures.end())
-            throw unknownName(ErrorKind::usage, fmt::format("figure of {}", paper.id), id, names);
-        found.push_back(&*figure);
+        const auto figure = std::ranges::find(figures, id, &PaperFigure::id);
+        if (figure == figures.end())
+            throw unknownName(ErrorKind::usage, fmt::format("{} of {}", plate.kind, paper.id), id, names);
+        plate.figure = &*figure;
+        plates.push_back(plate);
     }
-    return found;
 }
 
-std::string plateText(const Paper& paper, const PaperFigure& figure, const PaperPlate& plate) {
-    std::string text = fmt::format("{}, figure {}: {}\n{}\n", paper.id, figure.id, figure.shows, paper.citation);
+// Tables alone where only tables were asked for.
+std::vector<Plate> platesOf(const Paper& paper, const Options& options) {
+    std::vector<Plate> plates;
+    if (options.given("figure") || !options.given("table"))
+        addPlates(paper, paper.figures, options.names("figure"), {}, plates);
+    addPlates(paper, paper.tables, options.names("table"), {.kind = "table", .stem = "tab"}, plates);
+    return plates;
+}
+
+std::string plateText(const Paper& paper, const Plate& which, const PaperPlate& plate) {
+    std::string text =
+        fmt::format("{}, {} {}: {}\n{}\n", paper.id, which.kind, which.figure->id, which.figure->shows, paper.citation);
     if (!plate.choices.empty()) text += "\nChosen here, where the text leaves it open:\n";
     for (const std::string& choice : plate.choices) text += fmt::format("- {}\n", choice);
+    if (!plate.table.empty()) text += "\n" + plate.table;
     for (const PaperStatement& statement : plate.statements)
         text += fmt::format("\nThe paper: {}\nHere: {}\n{}.\n", statement.says, statement.found,
                             statement.holds ? "It holds" : "It does not hold here");
     return text;
 }
 
-Json plateJson(const Paper& paper, const PaperFigure& figure, const PaperPlate& plate) {
-    Json json{{"paper", paper.id}, {"figure", figure.id}, {"shows", figure.shows}, {"choices", plate.choices}};
+Json plateJson(const Paper& paper, const Plate& which, const PaperPlate& plate) {
+    Json json{{"paper", paper.id},
+              {which.kind, which.figure->id},
+              {"shows", which.figure->shows},
+              {"choices", plate.choices}};
     json["statements"] = Json::array();
     for (const PaperStatement& statement : plate.statements)
         json["statements"].push_back(
@@ -65,7 +86,7 @@ Json plateJson(const Paper& paper, const PaperFigure& figure, const PaperPlate& 
 JobResult runPaper(const Job& job, Engine& engine, Observer& observer) {
     const Options options(job);
     const Paper& paper = findPaper(options.text("paper"));
-    const std::vector<const PaperFigure*> figures = figuresOf(paper, options.names("figure"));
+    const std::vector<Plate> figures = platesOf(paper, options);
     const std::string ending = "." + options.text("format");
     const std::vector<std::string> formats = figureFormats();
     if (std::ranges::find(formats, ending) == formats.end())
@@ -77,8 +98,8 @@ JobResult runPaper(const Job& job, Engine& engine, Observer& observer) {
                        .threads = static_cast<int>(options.number("threads")),
                        .backend = options.text("backend")};
     std::vector<PaperPlate> plates;
-    for (const PaperFigure* figure : figures) {
-        plates.push_back(figure->make(run));
+    for (const Plate& which : figures) {
+        plates.push_back(which.figure->make(run));
         plates.back().figure.metadata = {{"program", fmt::format("Searchlight {}", version())}, {"job", jobJson(job)}};
     }
 
@@ -89,11 +110,12 @@ JobResult runPaper(const Job& job, Engine& engine, Observer& observer) {
     const fs::path folder = job.output;
     if (!folder.empty()) makeFolder(folder);
     for (std::size_t i = 0; i < figures.size(); ++i) {
-        const std::string text = plateText(paper, *figures[i], plates[i]);
-        Json json = plateJson(paper, *figures[i], plates[i]);
+        const std::string text = plateText(paper, figures[i], plates[i]);
+        Json json = plateJson(paper, figures[i], plates[i]);
         result.text += (i > 0 ? "\n" : "") + text;
         if (!folder.empty()) {
-            const std::string stem = (folder / fmt::format("{}_fig{}", paper.id, figures[i]->id)).string();
+            const std::string stem =
+                (folder / fmt::format("{}_{}{}", paper.id, figures[i].stem, figures[i].figure->id)).string();
             drawFigure(plates[i].figure, stem + ending);
             writeFile(stem + ".csv", figureCsv(plates[i].figure));
             writeFile(stem + ".txt", text);
@@ -112,28 +134,34 @@ JobResult runPaper(const Job& job, Engine& engine, Observer& observer) {
 }  // namespace
 
 Command paperCommand() {
-    return {
-        .name = "paper",
-        .summary = "Make a paper's figures again, with the reference and what the paper states",
-        .example = "searchlight paper frisvad2014 --figure 5 -o out",
-        .options =
-            {{.name = "paper", .type = ParamType::text, .value = std::string(), .doc = "frisvad2014", .required = true},
-             {.name = "figure",
-              .type = ParamType::text,
-              .value = std::string("all"),
-              .doc = "its numbers, separated by commas, or all"},
-             option::walks(4e6, "reference_walks", "random walks of the reference per curve or picture"),
-             {.name = "format",
-              .type = ParamType::choice,
-              .value = std::string("svg"),
-              .choices = {"svg", "png", "pdf"},
-              .doc = "of the figures"},
-             option::backend(),
-             option::threads()},
-        .positional = "paper",
-        .uses_seed = true,
-        .output = "the folder of the figures, their data (.csv) and findings (.txt, .json)",
-        .run = runPaper};
+    return {.name = "paper",
+            .summary = "Make a paper's figures again, with the reference and what the paper states",
+            .example = "searchlight paper frisvad2014 --figure 5 -o out",
+            .options = {{.name = "paper",
+                         .type = ParamType::text,
+                         .value = std::string(),
+                         .doc = "frisvad2014 or freude2014",
+                         .required = true},
+                        {.name = "figure",
+                         .type = ParamType::text,
+                         .value = std::string("all"),
+                         .doc = "its numbers, separated by commas, or all; with --table alone, none"},
+                        {.name = "table",
+                         .type = ParamType::text,
+                         .value = std::string("all"),
+                         .doc = "the same of its tables"},
+                        option::walks(4e6, "reference_walks", "random walks of the reference per curve or picture"),
+                        {.name = "format",
+                         .type = ParamType::choice,
+                         .value = std::string("svg"),
+                         .choices = {"svg", "png", "pdf"},
+                         .doc = "of the figures"},
+                        option::backend(),
+                        option::threads()},
+            .positional = "paper",
+            .uses_seed = true,
+            .output = "the folder of the figures, their data (.csv) and findings (.txt, .json)",
+            .run = runPaper};
 }
 
 }  // namespace searchlight

@@ -6,7 +6,7 @@ namespace searchlight {
 
 std::span<const Command> commands() {
     static const std::vector<Command> table{
-        modelsCommand(),
+        modelsCommand(),  // one to a line
         materialsCommand(),
         profileCommand(),
         invertCommand(),

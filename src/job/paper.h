@@ -27,6 +27,7 @@ struct PaperPlate {
     std::vector<std::string> choices;  ///< where the paper's text leaves a setting open
     std::vector<PaperStatement> statements;
     Json values = Json::object();  ///< the numbers behind the statements
+    std::string table;             ///< of a table: ours beside theirs, as lines of text
 };
 
 /// What a figure is made with.
@@ -49,6 +50,7 @@ struct Paper {
     std::string id;  ///< "frisvad2014"
     std::string citation;
     std::vector<PaperFigure> figures;
+    std::vector<PaperFigure> tables = {};
 };
 
 /// In the order of publication.
@@ -56,5 +58,6 @@ std::span<const Paper> papers();
 
 /// The rows of papers(), each made in the paper's own file.
 Paper frisvad2014Paper();
+Paper freude2014Paper();
 
 }  // namespace searchlight

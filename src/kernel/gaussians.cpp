@@ -21,7 +21,9 @@ LineKernel gaussianLine(std::span<const double> weights, std::span<const double>
         narrow = narrow == 0 ? sigma : std::min(narrow, sigma);
         wide = std::max(wide, sigma);
     }
-    if (wide == 0) return LineKernel(delta);
+    double sum = -delta;
+    for (const double weight : weights) sum += weight;
+    if (wide == 0 || sum == 0) return LineKernel(delta);
     // A tenth of the narrowest, then 10 % apart but no more than a tenth of the widest.
     std::vector<double> x{0}, integral, density;
     while (x.back() < 6 * wide) x.push_back(x.back() + std::clamp(0.1 * x.back(), 0.1 * narrow, 0.1 * wide));
@@ -37,8 +39,6 @@ LineKernel gaussianLine(std::span<const double> weights, std::span<const double>
         density.push_back(value);
     }
     // What a Gaussian has beyond 6 sigma, 2e-9, is not to be missing.
-    double sum = -delta;
-    for (const double weight : weights) sum += weight;
     const double factor = 0.5 * sum / integral.back();
     for (double& value : integral) value *= factor;
     return {std::move(x), std::move(integral), std::move(density), delta};

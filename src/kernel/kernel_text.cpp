@@ -32,7 +32,12 @@ std::string comment(const KernelLabel& label, const Taps& taps, std::string_view
         "Units: weights are fractions of light, R, G, B; offsets are mm on the surface, to be scaled to the screen"};
     lines.insert(lines.end(), label.errors.begin(), label.errors.end());
     std::string text;
-    for (const std::string& line : lines) text += fmt::format("{} {}\n", mark, line);
+    for (std::string& line : lines) {
+        // A name with a line break would end the comment.
+        std::ranges::replace_if(
+            line, [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
+        text += fmt::format("{} {}\n", mark, line);
+    }
     return text;
 }
 

@@ -32,8 +32,7 @@ void requireRank(int rank, int most) {
         throw usageError(fmt::format("rank {} is none of this method", rank), fmt::format("expected 1 to {}", most));
 }
 
-// Two Gaussians per channel with one weight for all: the weight is searched, the variances follow from two moments of
-// the line, its median and its 90th percentile.
+// The radial fit's two Gaussians on one line, with one weight for all channels: where a hand would begin.
 TwoGaussians fittedTwoGaussians(const GroundTruth& truth) {
     const SeparableKernel gaussians = fittedGaussians(truth, 2, GaussianMeasure::pictures, 0);
     TwoGaussians fitted;
@@ -53,7 +52,7 @@ TwoGaussians fittedTwoGaussians(const GroundTruth& truth) {
 
 Taps tapsOf(const SeparableKernel& kernel, const MethodOptions& options) {
     if (options.placed) return placedTaps(kernel, options.taps);
-    return sampleTaps(kernel, quadraticOffsets(options.taps, tapExtent(kernel, options.rest)));
+    return quadraticTaps(kernel, options.taps, options.rest);
 }
 
 }  // namespace

@@ -42,13 +42,12 @@ struct MadeKernel {
     std::optional<SeparableKernel> raw;     ///< before it was normalised, where that changed it
     Taps taps;
     std::optional<SkinModel> skin;
-    std::string note;  ///< what was done that a reader would not expect; may be empty
 
     std::size_t rank() const { return taps.rank(); }
 };
 
-/// Makes it. `cells` are the truth in kernel space. Without preset and numbers, `manual` is the best fit of two
-/// Gaussians to the line of the truth. Throws a usage Error for an unknown name and for numbers that make no sense.
+/// Makes it. `cells` are the truth in kernel space. Without preset and numbers, `manual` is the radial fit of
+/// two Gaussians on one line. Throws a usage Error for an unknown name and for numbers that make no sense.
 MadeKernel makeKernel(const GroundTruth& truth, const CellKernel& cells, const MethodOptions& options);
 
 /// Lines that the taps stand for: each weight spread evenly over its cell, as sampleTaps gathered it.

@@ -307,8 +307,9 @@ OptimisedTaps optimisedTaps(const GroundTruth& truth, const OptimisedOptions& op
     const double feature = options.feature_mm > 0 ? options.feature_mm : 16 * span.middle;
     const Search search(layout, planeProbes(truth, line.terms[0].lines, span, feature));
     VectorXd numbers;
-    for (const double rest : {0.1, 0.03, 0.01}) {
-        Taps start = sampleTaps(line, quadraticOffsets(options.taps, tapExtent(line, rest)));
+    std::vector<Taps> starts{placedTaps(line, options.taps)};
+    for (const double rest : {0.1, 0.03, 0.01}) starts.push_back(quadraticTaps(line, options.taps, rest));
+    for (Taps& start : starts) {
         if (options.rank == 2) {
             start.terms.push_back(start.terms[0]);
             start.terms[1].angle_deg = 45;

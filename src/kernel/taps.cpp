@@ -40,18 +40,31 @@ Taps sampleTaps(const SeparableKernel& kernel, const std::vector<double>& offset
     return taps;
 }
 
+Taps quadraticTaps(const SeparableKernel& kernel, int count, double rest) {
+    Taps taps;
+    for (const KernelTerm& term : kernel.terms) {
+        const SeparableKernel alone{.terms = {term}};
+        Taps sampled = sampleTaps(alone, quadraticOffsets(count, tapExtent(alone, rest)));
+        taps.extent_mm = std::max(taps.extent_mm, sampled.extent_mm);
+        taps.terms.push_back(std::move(sampled.terms[0]));
+    }
+    return taps;
+}
+
 double tapExtent(const SeparableKernel& kernel, double rest) {
     double extent = 0;
     for (const KernelTerm& term : kernel.terms)
         for (const LineKernel& line : term.lines) {
-            if (line.extent() == 0) continue;
-            const double mass = std::abs(line.mass() - line.delta());
-            double low = 0, high = line.extent();
-            for (int i = 0; i < 60; ++i) {
-                const double middle = 0.5 * (low + high);
-                (2 * std::abs(line.integral(middle, line.extent())) > rest * mass ? low : high) = middle;
-            }
-            extent = std::max(extent, high);
+            const std::span<const double> x = line.nodes();
+            if (x.empty()) continue;
+            std::vector<double> within{0};
+            for (std::size_t i = 0; i + 1 < x.size(); ++i)
+                within.push_back(within.back() + std::abs(line.integral(x[i], x[i + 1])));
+            const double goal = (1 - rest) * within.back();
+            const auto above = static_cast<std::size_t>(std::ranges::lower_bound(within, goal) - within.begin());
+            if (above == 0 || above >= x.size()) continue;
+            const double t = (goal - within[above - 1]) / (within[above] - within[above - 1]);
+            extent = std::max(extent, std::lerp(x[above - 1], x[above], t));
         }
     return extent > 0 ? extent : 1;
 }

@@ -16,7 +16,11 @@ std::vector<double> quadraticOffsets(int count, double extent_mm);
 /// Requires a list like quadraticOffsets'.
 Taps sampleTaps(const SeparableKernel& kernel, const std::vector<double>& offsets_mm);
 
-/// A radius that the outermost of `count` taps may stand at: what lies beyond it is at most `rest` of each line.
+/// The same with quadratic offsets for each term, up to where `rest` of it lies beyond: tapExtent.
+Taps quadraticTaps(const SeparableKernel& kernel, int count, double rest = 0.01);
+
+/// A radius that the outermost of `count` taps may stand at: beyond it lies at most `rest` of the absolute mass of each
+/// line.
 double tapExtent(const SeparableKernel& kernel, double rest = 0.01);
 
 }  // namespace searchlight
