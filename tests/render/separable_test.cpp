@@ -137,10 +137,10 @@ TEST(Separable, AStrengthOfNothingShowsTheLightAsItFell) {
     const Image without = picture({{"kernel_width", 0.0}}), black = picture({{"strength", path}}),
                 blurred = picture({});
     std::filesystem::remove(path);
-    const auto difference = [&](const Image& picture) {
+    const auto difference = [&](const Image& other) {
         double error = 0, power = 0;
         for (std::size_t i = 0; i < without.pixels.size(); ++i) {
-            error += std::pow(picture.pixels[i].r - without.pixels[i].r, 2);
+            error += std::pow(other.pixels[i].r - without.pixels[i].r, 2);
             power += std::pow(without.pixels[i].r, 2);
         }
         return std::sqrt(error / power);
