@@ -36,6 +36,7 @@ using Words = std::array<std::pair<std::string_view, Value>, size>;
 constexpr Words<FilterAxes, 2> axes_words{{{"surface", FilterAxes::surface}, {"screen", FilterAxes::screen}}};
 constexpr Words<FilterTrust, 3> trust_words{
     {{"distance", FilterTrust::distance}, {"depth", FilterTrust::depth}, {"all", FilterTrust::all}}};
+
 template <class Value, std::size_t size>
 std::vector<std::string> wordsOf(const Words<Value, size>& words) {
     std::vector<std::string> list;
@@ -93,14 +94,18 @@ public:
                               observer);
         if (view || changed("strength")) {
             const auto& path = std::get<std::string>(options.find("strength")->second);
-            strength_.clear();
-            if (path != "none") strength_ = strengthAt(path, *input.visible, *input.object, *input.rays, input.threads);
+            strength_ = path == "none" ? std::vector<float>()
+                                       : strengthAt(path, *input.visible, *input.object, *input.rays, input.threads);
         }
         stage_ms_ = {{"samples", samples_ms}, {"back_light", milliseconds(back_begin)}};
         seen_ = now;
         options_ = options;
+        // Light that shines through is blurred as well: the filter's factor is taken out of it.
+        const Rgb per_total = {total_.r > 0 ? 1 / total_.r : 0, total_.g > 0 ? 1 / total_.g : 0,
+                               total_.b > 0 ? 1 / total_.b : 0};
         light_.resize(samples_->count);
-        for (std::size_t i = 0; i < light_.size(); ++i) light_[i] = input.irradiance->transmitted[i];
+        for (std::size_t i = 0; i < light_.size(); ++i)
+            light_[i] = toFloat(toDouble(input.irradiance->transmitted[i]) + per_total * toDouble(back_[i]));
         filter_ = {.axes = chosen(axes_words, options, "axes"),
                    .trust = chosen(trust_words, options, "trust"),
                    .width = number(options, "kernel_width"),
@@ -113,16 +118,10 @@ public:
     bool step(Observer& observer) override {
         const auto begin = Clock::now();
         filter_.observer = &observer;
-        // Light that shines through is blurred as well: the filter's factor is taken out of it.
-        std::vector<Rgbf> light = light_;
-        const Rgb per_total = {total_.r > 0 ? 1 / total_.r : 0, total_.g > 0 ? 1 / total_.g : 0,
-                               total_.b > 0 ? 1 / total_.b : 0};
-        for (std::size_t i = 0; i < light.size(); ++i)
-            light[i] = toFloat(toDouble(light[i]) + per_total * toDouble(back_[i]));
         if (device_)
-            exitance_ = device_->filter(light, *taps_, filter_);
+            exitance_ = device_->filter(light_, *taps_, filter_);
         else
-            lanes_.filter(*samples_, light, *taps_, filter_, exitance_);
+            lanes_.filter(*samples_, light_, *taps_, filter_, exitance_);
         const Rgbf total = toFloat(total_);
         for (Rgbf& m : exitance_) m = {total.r * m.r, total.g * m.g, total.b * m.b};
         stage_ms_["filter"] = milliseconds(begin);

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <numbers>
 
 #include "base/error.h"
@@ -136,10 +137,10 @@ TEST(Separable, AStrengthOfNothingShowsTheLightAsItFell) {
     const Image without = picture({{"kernel_width", 0.0}}), black = picture({{"strength", path}}),
                 blurred = picture({});
     std::filesystem::remove(path);
-    const auto difference = [&](const Image& picture) {
+    const auto difference = [&](const Image& other) {
         double error = 0, power = 0;
         for (std::size_t i = 0; i < without.pixels.size(); ++i) {
-            error += std::pow(picture.pixels[i].r - without.pixels[i].r, 2);
+            error += std::pow(other.pixels[i].r - without.pixels[i].r, 2);
             power += std::pow(without.pixels[i].r, 2);
         }
         return std::sqrt(error / power);
@@ -167,6 +168,20 @@ TEST(Separable, StrengthNeedsTextureCoordinates) {
         ADD_FAILURE();
     } catch (const Error& error) {
         EXPECT_NE(error.message.find("has no texture coordinates, which a strength map needs"), std::string::npos);
+    }
+    std::filesystem::remove(path);
+}
+
+TEST(Separable, AStrengthIsALengthsFactor) {
+    const std::string path =
+        (std::filesystem::temp_directory_path() / ("negative" + std::to_string(getpid()) + ".pfm")).string();
+    for (const float value : {-1.0f, 2000.0f, std::numeric_limits<float>::quiet_NaN()}) {
+        writeImage(path, {Image(2, 2, {value, value, value, 1})});
+        Renderer renderer(shippedMaterials());
+        renderer.setScene(slabScene());
+        renderer.setSettings(small({{"strength", path}}));
+        Observer observer;
+        EXPECT_THROW(renderer.render(observer), Error) << value;
     }
     std::filesystem::remove(path);
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cassert>
 #include <cmath>
 #include <numbers>
@@ -186,7 +185,7 @@ void filterPart(const FilterPass& pass, std::size_t begin, std::size_t end) {
         const FloatV own_x = hn::MulAdd(per_depth, position.x, middle_x);
         const FloatV own_y = hn::MulAdd(per_depth, position.y, middle_y);
         const auto cellOf = [&](FloatV own, FloatV last) HWY_ATTR {
-            return hn::Min(hn::Max(zero, hn::Floor(hn::Add(own, hn::Set(d, 0.5f)))), hn::Floor(last));
+            return hn::Min(hn::Max(hn::Floor(hn::Add(own, hn::Set(d, 0.5f))), zero), hn::Floor(last));
         };
         const FloatV column = cellOf(own_x, last_x), row = cellOf(own_y, last_y);
         const FloatV from_x = hn::Add(middle_x, hn::Sub(column, own_x));
@@ -199,7 +198,7 @@ void filterPart(const FilterPass& pass, std::size_t begin, std::size_t end) {
             const FloatV offset = hn::Mul(width, hn::Set(d, tap.offset));
             const FloatV per_z = hn::Mul(focal, reciprocal(hn::Max(nearest, hn::MulAdd(offset, axis.z, position.z))));
             const auto place = [&](FloatV along, FloatV from, FloatV middle_of, FloatV last) HWY_ATTR {
-                return hn::Min(hn::Max(zero, hn::MulAdd(per_z, hn::MulAdd(offset, along, from), middle_of)), last);
+                return hn::Min(hn::Max(hn::MulAdd(per_z, hn::MulAdd(offset, along, from), middle_of), zero), last);
             };
             FloatV sum_r = zero, sum_g = zero, sum_b = zero, sum = zero;
             const auto add_texel = [&](const Texel& texel, FloatV grid_x, FloatV grid_y, FloatV share) HWY_ATTR {

@@ -15,6 +15,7 @@ namespace searchlight {
 namespace {
 
 constexpr std::size_t block = 64;
+constexpr float most_strength = 1000;  // more is a mistake, and lengths stay finite
 
 // Rows from the top, v upwards.
 float bilinear(const Image& picture, double u, double v) {
@@ -39,8 +40,8 @@ std::vector<float> strengthAt(const std::string& path, const VisibleSurface& vis
     const Image picture = readImage(path).image;
     for (const Rgba& p : picture.pixels)
         for (const float value : {p.r, p.g, p.b})
-            if (!(value >= 0) || !std::isfinite(value))
-                throw inputError(fmt::format("{}: a strength is negative or not finite", path),
+            if (!(value >= 0 && value <= most_strength))
+                throw inputError(fmt::format("{}: a strength is {}, expected 0 to {}", path, value, most_strength),
                                  "lengths are multiplied by the picture's luminance");
     const std::size_t count = visible.positions.size();
     std::vector<float> strength(count, 1.0f);
