@@ -19,7 +19,7 @@ import tempfile
 
 RADII = [0.5, 1, 2, 5]
 BINS = 53
-RUNS = 16  # of MCML: their scatter is its variance. Its last bin holds all beyond, so it has one more than are read
+RUNS = 64  # of MCML: their scatter is its variance. Its last bin holds all beyond, so it has one more than are read
 
 # name, sigma_a, sigma_s (1/mm), g, eta; MCML's photons per second, roughly, to share out the time
 CASES = [

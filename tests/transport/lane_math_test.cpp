@@ -6,7 +6,8 @@
 #include <random>
 
 #define HWY_BROKEN_EMU128 0  // as in half_space_walk.cpp
-#include "transport/walk/lane_math-inl.h"
+#include "transport/walk/fresnel.h"
+#include "transport/walk/lane_scatter-inl.h"
 
 namespace searchlight {
 namespace HWY_NAMESPACE {
@@ -42,6 +43,17 @@ TEST(LaneMath, ExponentialHasTheMomentsOfTheDistribution) {
     // The lattice cuts the last 2e-6 of probability in halves: 1e-5 to 3e-2 of the moments.
     const double tolerance[4] = {1e-5, 2e-4, 3e-3, 6e-2};
     for (int i = 0; i < 4; ++i) EXPECT_NEAR(moments[i] / count, truth[i], tolerance[i]);
+}
+
+// Also where nothing is left of the cosine: a matched interface that is grazed reflects nothing, and is no NaN.
+TEST(LaneMath, ReflectanceFollowsFresnelDownToGrazing) {
+    for (const float eta : {0.75f, 1.0f, 1.3f, 2.0f})
+        for (const float c : {1.0f, 0.9f, 0.5f, 0.1f, 1e-3f}) {
+            const float lane = hn::GetLane(fresnel(hn::Set(d, c), hn::Set(d, eta)).reflectance);
+            // Near the critical angle the root loses half of its digits.
+            EXPECT_NEAR(lane, internalReflectance(eta, c), 1e-4) << eta << ", " << c;
+        }
+    EXPECT_EQ(hn::GetLane(fresnel(hn::Zero(d), hn::Set(d, 1.0f)).reflectance), 0);
 }
 
 TEST(LaneMath, AzimuthIsAUniformPointOnTheCircle) {

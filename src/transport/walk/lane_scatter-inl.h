@@ -100,7 +100,8 @@ HWY_INLINE Refraction fresnel(FloatV c, FloatV eta) {
     const FloatV eta_c = hn::Mul(eta, c), eta_t = hn::Mul(eta, t);
     // Two quotients for one division.
     const FloatV s_below = hn::Add(eta_c, t), p_below = hn::Add(c, eta_t);
-    const FloatV inverse = hn::Div(one, hn::Mul(s_below, p_below));
+    // Both vanish where a matched interface is grazed.
+    const FloatV inverse = hn::Div(one, hn::Max(hn::Mul(s_below, p_below), hn::Set(d, 1e-30f)));
     const FloatV s = hn::Mul(hn::Mul(hn::Sub(eta_c, t), p_below), inverse);
     const FloatV p = hn::Mul(hn::Mul(hn::Sub(c, eta_t), s_below), inverse);
     return {hn::Mul(hn::Set(d, 0.5f), hn::MulAdd(s, s, hn::Mul(p, p))), t};
