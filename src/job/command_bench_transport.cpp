@@ -53,9 +53,10 @@ Timed walkTimed(const HalfSpaceProblem& problem, const HalfSpaceOptions& options
 
 // As many walks as take about so long, after a first run that finds out how many those are.
 Timed walkFor(double seconds, const HalfSpaceProblem& problem, HalfSpaceOptions options, Observer& observer) {
-    options.walks = first_walks;
+    const std::uint64_t first = options.gl ? first_walks / 20 : first_walks;  // it may be a software driver
+    options.walks = first;
     const double once = std::max(walkTimed(problem, options, observer).seconds, 1e-4);
-    options.walks = static_cast<std::uint64_t>(std::max(1.0, seconds / once) * static_cast<double>(first_walks));
+    options.walks = static_cast<std::uint64_t>(std::max(1.0, seconds / once) * static_cast<double>(first));
     return walkTimed(problem, options, observer);
 }
 

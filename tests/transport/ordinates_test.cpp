@@ -32,7 +32,7 @@ TEST(Ordinates, TotalsMatchAddingDoubling) {
     }
 }
 
-// [Giovanelli1955], as quoted in data/validation: .2600 with the specular .04 (four digits); here 0.25991857.
+// Giovanelli 1955: .2600 with the specular .04, four digits; adding-doubling has 0.25991857.
 TEST(Ordinates, TotalMatchesGiovanelli) { EXPECT_NEAR(0.04 + totalOf({0.9, 0, 1.5}), 0.25991857, 1e-6); }
 
 // What is left out of ten directions is made up for exactly: the second order is that of any number of directions.
