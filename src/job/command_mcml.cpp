@@ -61,17 +61,19 @@ JobResult runMcml(const Job& job, Engine&, Observer& observer) {
 }  // namespace
 
 Command mcmlCommand() {
-    return {
-        .name = "mcml",
-        .summary = "Walk the runs of an MCML input file and write its output files",
-        .example = "searchlight mcml sample.mci",
-        .options = {{.name = "input", .type = ParamType::path, .doc = "an .mci file, version 1.0 or 2.0", .required = true},
-                    option::walks(1e6, "walks", "random walks of every run; absent: the photons of the file"),
-                    option::threads()},
-        .positional = "input",
-        .uses_seed = true,
-        .output = "a JSON document with every standard error, beside the .mco files",
-        .run = runMcml};
+    return {.name = "mcml",
+            .summary = "Walk the runs of an MCML input file and write its output files",
+            .example = "searchlight mcml sample.mci",
+            .options = {{.name = "input",
+                         .type = ParamType::path,
+                         .doc = "an .mci file, version 1.0 or 2.0",
+                         .required = true},
+                        option::walks(1e6, "walks", "random walks of every run; absent: the photons of the file"),
+                        option::threads()},
+            .positional = "input",
+            .uses_seed = true,
+            .output = "a JSON document with every standard error, beside the .mco files",
+            .run = runMcml};
 }
 
 }  // namespace searchlight

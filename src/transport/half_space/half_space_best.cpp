@@ -37,7 +37,8 @@ namespace HWY_NAMESPACE {
 // The histogram is kept once for each lane of the widest vectors and each deposit of a collision: no addition meets
 // another one on its way. Those of four packs are shared.
 constexpr std::size_t kCopies = 16;
-constexpr int kFlushSteps = 256;  // floats hold no more than so many additions a pack
+// Floats hold no more than so many additions a pack; of more bins each is met less often.
+constexpr std::size_t kFlushSteps = 256;
 // Without absorption a walk has no mean length: beyond so many collisions its importance falls as their inverse.
 constexpr std::int32_t kFadingWalk = 1 << 13;
 constexpr float kRoulette = 0.6f, kSplit = 2.0f;
@@ -112,7 +113,8 @@ public:
 
     std::uint64_t run(ExitTally& tally) {
         std::uint64_t collisions = 0;
-        int steps = 0;
+        const std::size_t flush_steps = std::max(kFlushSteps, 2 * slots_);
+        std::size_t steps = 0;
         while (const int alive = refill()) {
             collisions += static_cast<std::uint64_t>(alive);
             free_ = split_ = 0;
@@ -122,7 +124,10 @@ public:
             }
             for (std::size_t at = 0; at < kLanes; at += hn::Lanes(Float())) advance(at);
             if (split_ != 0) splitWalks();
-            if (++steps % kFlushSteps == 0) flush();
+            if (++steps == flush_steps) {
+                flush();
+                steps = 0;
+            }
         }
         flush();
         finish(tally);
@@ -130,7 +135,7 @@ public:
     }
 
 private:
-    // Ways out of a collision: turned by half a turn, or by quarters where that costs no phase function.
+    // Ways out of a collision: one, and the same turned by half a turn.
     static constexpr std::size_t kWays = !kForesees ? 1 : 2;
 
     static HWY_INLINE FloatV set(double value) { return hn::Set(Float(), static_cast<float>(value)); }
@@ -232,7 +237,7 @@ private:
 
     HWY_INLINE FloatV reflectance(FloatV cosine) const { return fresnel(cosine, set(plan_.walk.eta)).reflectance; }
 
-    // Tallies what leaves without another collision, along ways out that four packs of lanes share.
+    // Tallies what leaves without another collision, along ways out that 16 lanes share.
     HWY_INLINE void foresee(const BestPack& pack, std::size_t at) {
         const Float d;
         const std::size_t way = way_ + at / kCopies;
