@@ -163,7 +163,7 @@ TEST_F(DocksTest, AShaderWithoutEndIsMarkedAndTheWindowGoesOn) {
     file.write(edit->toPlainText().toUtf8());
     file.close();
     ModelStatus& status = ModelStatus::of(workspace);
-    status.fileWritten(path.toStdString());
+    workspace.noteModelFile(path);
     EXPECT_TRUE(waitUntil([&] { return status.problem(path.toStdString()); }, 60'000));
     EXPECT_TRUE(waitUntil([&] { return seriesOf(workspace.state().models[0].color); }, 60'000)) << "others go on";
     longest = std::max(longest, beat.elapsed());

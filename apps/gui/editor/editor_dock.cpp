@@ -54,7 +54,7 @@ public:
             if (change.any({Part::models, Part::active})) load();
         });
         connect(&watcher_, &QFileSystemWatcher::fileChanged, this, [this] { fileChanged(); });
-        connect(&ModelStatus::of(desk_.workspace), &ModelStatus::written, this, [this](const QString& id) {
+        connect(&desk_.workspace, &Workspace::modelFileChanged, this, [this](const QString& id) {
             if (id.toStdString() == id_ && !writing_) fileChanged();
         });
         connect(edit_, &CodeEdit::saveWished, this, [this] { write(); });
@@ -204,7 +204,7 @@ private:
             showName();
             if (!watcher_.files().contains(path_)) watcher_.addPath(path_);
             ModelStatus::of(desk_.workspace).set(id_, {});
-            ModelStatus::of(desk_.workspace).fileWritten(id_);
+            desk_.workspace.noteModelFile(QString::fromStdString(id_));
         } catch (const Error& error) {
             desk_.notices.post(error);
         }
@@ -226,7 +226,7 @@ private:
             pause_.start();
             if (!writing_) {
                 writing_ = true;
-                ModelStatus::of(desk_.workspace).fileWritten(id_);
+                desk_.workspace.noteModelFile(QString::fromStdString(id_));
                 writing_ = false;
             }
         } catch (const Error& error) {

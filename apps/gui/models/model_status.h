@@ -23,12 +23,8 @@ public:
     /// Null: none is known.
     const Error* problem(const std::string& id) const;
 
-    /// The model's file was written: whoever keeps something of it starts anew.
-    void fileWritten(const std::string& id) { emit written(QString::fromStdString(id)); }
-
 Q_SIGNALS:
     void changed();
-    void written(const QString& id);
 
 private:
     explicit ModelStatus(QObject* parent) : QObject(parent) {}

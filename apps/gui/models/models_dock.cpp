@@ -63,7 +63,7 @@ public:
             if (change.any({Part::models, Part::active})) fill();
         });
         connect(&ModelStatus::of(desk_.workspace), &ModelStatus::changed, this, [this] { fill(); });
-        connect(&ModelStatus::of(desk_.workspace), &ModelStatus::written, this, [this] { fill(); });
+        connect(&desk_.workspace, &Workspace::modelFileChanged, this, [this] { fill(); });
         connect(&desk_.theme, &Theme::changed, this, [this] { fill(); });
         fill();
     }
@@ -116,7 +116,7 @@ private:
             button({}, QStringLiteral("reload"), tr("Read the model's file again"), QStringLiteral("models.reload"));
         reload->setAccessibleName(tr("Reload"));
         connect(reload, &QToolButton::clicked, this, [this] {
-            ModelStatus::of(desk_.workspace).fileWritten(desk_.workspace.state().activeModel().model.id);
+            desk_.workspace.noteModelFile(QString::fromStdString(desk_.workspace.state().activeModel().model.id));
         });
         auto* remove =
             button({}, QStringLiteral("minus"), tr("Take the model off the list"), QStringLiteral("models.remove"));

@@ -59,7 +59,7 @@ public:
         connect(&desk_.workspace, &Workspace::changed, this, [this](Change change) {
             if (change.any({Part::material, Part::models, Part::parameters, Part::options, Part::seed})) refresh();
         });
-        connect(&ModelStatus::of(desk_.workspace), &ModelStatus::written, this, [this] { refresh(); });
+        connect(&desk_.workspace, &Workspace::modelFileChanged, this, [this] { refresh(); });
         refresh();
     }
 

@@ -106,7 +106,7 @@ public:
                             Part::camera, Part::options, Part::seed}))
                 refresh();
         });
-        connect(&ModelStatus::of(desk_.workspace), &ModelStatus::written, this, [this] { refresh(); });
+        connect(&desk_.workspace, &Workspace::modelFileChanged, this, [this] { refresh(); });
         resize_.setSingleShot(true);
         resize_.setInterval(150);
         connect(&resize_, &QTimer::timeout, this, [this] { refresh(); });

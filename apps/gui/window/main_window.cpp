@@ -57,7 +57,9 @@ MainWindow::MainWindow(Desk& desk, QString settings_file, QWidget* parent)
     column->setContentsMargins(0, 0, 0, 0);
     column->setSpacing(0);
     view_ = new ObjectView(desk_, middle);
-    column->addWidget(new ViewBar(desk_, middle));
+    auto* bar = new ViewBar(desk_, middle);
+    bar->setMinimumWidth(480);
+    column->addWidget(bar);
     column->addWidget(view_, 1);
     setCentralWidget(middle);
     new NoticeBar(desk_, view_);
@@ -89,6 +91,9 @@ void MainWindow::makeDocks() {
         dock->setTitleBarWidget(new DockTitle(desk_.theme, dock));
         QWidget* body = entry.make(desk_);
         body->setAccessibleName(tr(entry.title));
+        // What stands in tabs that are not shown must not make the window wide.
+        const bool below = entry.area == Qt::BottomDockWidgetArea;
+        body->setMinimumSize(below ? 420 : 260, below ? 150 : 200);
         dock->setWidget(body);
         dock->toggleViewAction()->setShortcut(QKeySequence(QString::fromLatin1(entry.shortcut)));
         dock->toggleViewAction()->setToolTip(tr(entry.doc));
