@@ -120,7 +120,7 @@ void MainWindow::placeDocks() {
         dock->raise();
         if (area == Qt::BottomDockWidgetArea) {
             bottoms << dock;
-            heights << std::clamp(height() / 3, 200, 360);
+            heights << std::clamp(height() * 36 / 100, 270, 400);
         } else {
             sides << dock;
             // Room for code on the right, where there is some.
@@ -331,6 +331,8 @@ void MainWindow::refreshTitle() {
 }
 
 void MainWindow::openPaths(const QStringList& paths) {
+    // Who brings something knows what to do with it.
+    if (welcome_ && !paths.isEmpty()) welcome_->hide();
     for (const QString& path : paths) {
         try {
             openPath(desk_.workspace, path);
