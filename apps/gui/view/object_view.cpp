@@ -180,14 +180,19 @@ void ObjectView::paintLabels(QPainter& painter) {
 
 void ObjectView::paintScale(QPainter& painter) {
     const double scale = std::get<double>(optionOf(desk_.workspace.state(), "view", "difference_scale"));
-    const QRectF bar(width() - 220.0 - Space::xl, height() - 92.0, 220, 10);
-    for (int x = 0; x < 220; ++x)
-        painter.fillRect(QRectF(bar.left() + x, bar.top(), 1, bar.height()), QColor(differenceColor(x / 109.5 - 1)));
+    constexpr int wide = 160;
+    const QRectF bar(width() - wide - 2.0 * Space::xl, 56, wide, 8);
+    painter.setPen(Qt::NoPen);
+    painter.setBrush(QColor(difference_ground).darker(140));
+    painter.drawRoundedRect(bar.adjusted(-Space::l, -Space::s, Space::l, 26), Space::radius, Space::radius);
+    for (int x = 0; x < wide; ++x)
+        painter.fillRect(QRectF(bar.left() + x, bar.top(), 1, bar.height()),
+                         QColor(differenceColor(2.0 * x / (wide - 1) - 1)));
     painter.setPen(QColor(difference_text));
     painter.setFont(desk_.theme.smallFont());
-    const QRectF below(bar.left() - 20, bar.bottom() + 4, bar.width() + 40, 18);
+    const QRectF below = bar.adjusted(-Space::s, 12, Space::s, 20);
     painter.drawText(below, Qt::AlignLeft, tr("-%1 %").arg(scale, 0, 'g', 3));
-    painter.drawText(below, Qt::AlignHCenter, tr("darker   0   brighter"));
+    painter.drawText(below, Qt::AlignHCenter, "0");
     painter.drawText(below, Qt::AlignRight, tr("+%1 %").arg(scale, 0, 'g', 3));
 }
 
