@@ -73,13 +73,14 @@ int main(int argc, char** argv) {
         const QStringList sides = parser.value(size_option).split('x');
         if (sides.size() == 2) window.resize(sides[0].toInt(), sides[1].toInt());
     }
-    window.show();
     if (const auto left = recovery.take()) {
         workspace.open(*left, {});
         notices.post(Notices::Level::info,
                      QObject::tr("What was not saved when the program last ended is here again."));
     }
+    // Before it is shown: no picture is begun that nobody wants.
     window.openPaths(parser.positionalArguments());
+    window.show();
 
     if (parser.isSet(trace)) tracer.exercise();
     const auto finish = [&] {

@@ -133,6 +133,12 @@ bool Tasks::busy() const {
     return std::ranges::any_of(tasks_, [](const auto& task) { return !task->cancelled; });
 }
 
+bool Tasks::busy(const std::string& lane_name, const std::string& key) const {
+    return std::ranges::any_of(tasks_, [&](const auto& task) {
+        return !task->cancelled && task->spec.lane == lane_name && task->spec.key == key;
+    });
+}
+
 std::vector<TaskStatus> Tasks::status() const {
     std::vector<TaskStatus> list;
     for (const auto& task : tasks_) {

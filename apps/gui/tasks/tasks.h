@@ -64,8 +64,9 @@ public:
     void cancel(std::uint64_t id);
     /// What the lane has of that key.
     void cancel(const std::string& lane, const std::string& key);
-    /// Something runs or waits.
+    /// Something runs or waits; of that key in that lane.
     bool busy() const;
+    bool busy(const std::string& lane, const std::string& key) const;
 
     /// Titled tasks that run, oldest first.
     std::vector<TaskStatus> status() const;

@@ -16,6 +16,7 @@ namespace searchlight::gui {
 namespace {
 
 constexpr double degrees_per_pixel = 0.4, key_degrees = 6, key_zoom = 1.12;
+constexpr QRgb difference_ground = qRgb(74, 75, 78), difference_text = qRgb(233, 232, 230);
 constexpr double radians = std::numbers::pi / 180;
 
 Vec3 turned(Vec3 v, Vec3 axis, double angle) {
@@ -94,6 +95,8 @@ void ObjectView::paintEvent(QPaintEvent*) {
     const ViewPicture& shown = pictures_.shown();
     const QRectF whole(rect());
     const bool difference = comparing() && !wiping() && !shown.difference.isNull();
+    // No difference is nearly white: on a dark ground in every theme.
+    if (difference) painter.fillRect(rect(), QColor(difference_ground));
     painter.drawImage(whole, difference ? shown.difference : shown.a);
     if (wiping() && !shown.b.isNull()) {
         const QRectF side(wipeX(), 0, width() - wipeX(), height());
@@ -169,22 +172,27 @@ void ObjectView::paintLabels(QPainter& painter) {
         painter.drawPath(arrows);
     }
     const QString status = error_.isEmpty() ? statusText() : error_;
-    painter.setPen(error_.isEmpty() ? colors.muted : colors.error);
+    const bool difference = comparing() && !wiping() && !pictures_.shown().difference.isNull();
+    painter.setPen(!error_.isEmpty() ? colors.error : difference ? QColor(difference_text) : colors.muted);
     painter.drawText(QRectF(Space::m, 0, width() - 2.0 * Space::m, height() - Space::s),
                      Qt::AlignBottom | Qt::AlignLeft | Qt::TextWordWrap, status);
 }
 
 void ObjectView::paintScale(QPainter& painter) {
-    const Colors& colors = desk_.theme.colors();
     const double scale = std::get<double>(optionOf(desk_.workspace.state(), "view", "difference_scale"));
-    const QRectF bar(width() - 220.0 - Space::l, height() - 44.0, 220, 10);
-    for (int x = 0; x < 220; ++x)
-        painter.fillRect(QRectF(bar.left() + x, bar.top(), 1, bar.height()), QColor(differenceColor(x / 109.5 - 1)));
-    painter.setPen(colors.muted);
+    constexpr int wide = 160;
+    const QRectF bar(width() - wide - 2.0 * Space::xl, 56, wide, 8);
+    painter.setPen(Qt::NoPen);
+    painter.setBrush(QColor(difference_ground).darker(140));
+    painter.drawRoundedRect(bar.adjusted(-Space::l, -Space::s, Space::l, 26), Space::radius, Space::radius);
+    for (int x = 0; x < wide; ++x)
+        painter.fillRect(QRectF(bar.left() + x, bar.top(), 1, bar.height()),
+                         QColor(differenceColor(2.0 * x / (wide - 1) - 1)));
+    painter.setPen(QColor(difference_text));
     painter.setFont(desk_.theme.smallFont());
-    const QRectF below(bar.left() - 20, bar.bottom() + 4, bar.width() + 40, 18);
+    const QRectF below = bar.adjusted(-Space::s, 12, Space::s, 20);
     painter.drawText(below, Qt::AlignLeft, tr("-%1 %").arg(scale, 0, 'g', 3));
-    painter.drawText(below, Qt::AlignHCenter, tr("darker   0   brighter"));
+    painter.drawText(below, Qt::AlignHCenter, "0");
     painter.drawText(below, Qt::AlignRight, tr("+%1 %").arg(scale, 0, 'g', 3));
 }
 

@@ -58,6 +58,13 @@ PictureService::PictureService(Desk& desk, QObject* parent)
         desk_.tasks.start(spec, [maker = maker_, id = id.toStdString()](TaskContext&) { maker->modelFileChanged(id); });
         request(true);
     });
+    // A user may cancel a picture: then nothing is delivered, and the next change begins anew.
+    connect(&desk_.tasks, &Tasks::statusChanged, this, [this] {
+        if ((!running_preview_ && !running_full_) || desk_.tasks.busy("picture", "picture")) return;
+        running_preview_ = running_full_ = false;
+        desk_.tasks.holdBackground(false);
+        if (pending_) submit(true);
+    });
     // The first picture goes before what a person looks at later; a window that is never shown holds nothing up.
     desk_.tasks.holdBackground(true);
     QTimer::singleShot(first_picture_ms, this, [this] {
@@ -159,8 +166,7 @@ void PictureService::submit(bool moving) {
     running_full_ = !moving;
     desk_.tasks.holdBackground(true);
     const Request request = requestOf(moving);
-    const TaskSpec spec{
-        .lane = "picture", .key = "picture", .title = moving ? QString() : tr("Picture"), .receiver = this};
+    const TaskSpec spec{.lane = "picture", .key = "picture", .title = tr("Picture"), .receiver = this};
     const auto work = [this, request, moving, maker = maker_](TaskContext& context) {
         QElapsedTimer clock;
         clock.start();

@@ -57,7 +57,9 @@ MainWindow::MainWindow(Desk& desk, QString settings_file, QWidget* parent)
     column->setContentsMargins(0, 0, 0, 0);
     column->setSpacing(0);
     view_ = new ObjectView(desk_, middle);
-    column->addWidget(new ViewBar(desk_, middle));
+    auto* bar = new ViewBar(desk_, middle);
+    bar->setMinimumWidth(480);
+    column->addWidget(bar);
     column->addWidget(view_, 1);
     setCentralWidget(middle);
     new NoticeBar(desk_, view_);
@@ -89,6 +91,9 @@ void MainWindow::makeDocks() {
         dock->setTitleBarWidget(new DockTitle(desk_.theme, dock));
         QWidget* body = entry.make(desk_);
         body->setAccessibleName(tr(entry.title));
+        // What stands in tabs that are not shown must not make the window wide.
+        const bool below = entry.area == Qt::BottomDockWidgetArea;
+        body->setMinimumSize(below ? 420 : 260, below ? 150 : 200);
         dock->setWidget(body);
         dock->toggleViewAction()->setShortcut(QKeySequence(QString::fromLatin1(entry.shortcut)));
         dock->toggleViewAction()->setToolTip(tr(entry.doc));
@@ -115,7 +120,7 @@ void MainWindow::placeDocks() {
         dock->raise();
         if (area == Qt::BottomDockWidgetArea) {
             bottoms << dock;
-            heights << std::clamp(height() / 3, 200, 360);
+            heights << std::clamp(height() * 36 / 100, 270, 400);
         } else {
             sides << dock;
             // Room for code on the right, where there is some.
@@ -326,6 +331,8 @@ void MainWindow::refreshTitle() {
 }
 
 void MainWindow::openPaths(const QStringList& paths) {
+    // Who brings something knows what to do with it.
+    if (welcome_ && !paths.isEmpty()) welcome_->hide();
     for (const QString& path : paths) {
         try {
             openPath(desk_.workspace, path);

@@ -141,6 +141,7 @@ QComboBox* ViewBar::makeOption(const char* option, const QString& name) {
     const auto section = std::ranges::find(sections(), "view", &Section::name);
     const Param& param = findParam(section->options, option, "option");
     QComboBox* box = makeBox(name, QString::fromStdString(param.doc));
+    box->setMaximumWidth(112);
     for (const std::string& choice : param.choices) {
         QString text = choice == "srgb" ? QString("sRGB") : QString::fromStdString(choice);
         text[0] = choice == "srgb" ? text[0] : text[0].toUpper();
