@@ -23,7 +23,8 @@ inline QApplication& application() {
         return true;
     }();
     (void)prepared;
-    static QApplication application(argc, argv);
+    // Never destroyed: at exit, Qt's own statics go before it.
+    static auto& application = *new QApplication(argc, argv);
     return application;
 }
 

@@ -165,7 +165,7 @@ private:
         working_ = true;
         const bool running = std::get<bool>(optionOf(desk_.workspace.state(), "spheres", "running"));
         desk_.tasks.start(
-            {.lane = kLane, .key = "spheres", .title = tr("Lit spheres"), .receiver = this},
+            {.lane = kLane, .key = "spheres", .title = tr("Lit spheres"), .background = true, .receiver = this},
             [this, kept = lane_, wish = request(), running, stops = number("exposure"),
              scale = number("difference_scale") / 100](TaskContext& context) {
                 Engine& engine = context.engine();

@@ -15,7 +15,8 @@ namespace searchlight::gui {
 namespace {
 
 bool endsLike(const QString& path, const std::vector<std::string>& endings) {
-    const QString lower = path.toLower();
+    QString lower = path.toLower();
+    if (lower.endsWith(".gz")) lower.chop(3);  // shapes may be compressed
     return std::ranges::any_of(endings,
                                [&](const std::string& e) { return lower.endsWith(QString::fromStdString(e)); });
 }
@@ -46,8 +47,9 @@ void addModel(Workspace& workspace, const std::string& path) {
 
 FileKind kindOf(const QString& path) {
     if (path.endsWith(".json", Qt::CaseInsensitive)) return FileKind::workspace;
-    if (endsLike(path, modelEndings())) return FileKind::model;
     if (endsLike(path, shapeEndings())) return FileKind::shape;
+    if (path.endsWith(".gz", Qt::CaseInsensitive)) return FileKind::unknown;
+    if (endsLike(path, modelEndings())) return FileKind::model;
     if (endsLike(path, imageEndings())) return FileKind::picture;
     return FileKind::unknown;
 }

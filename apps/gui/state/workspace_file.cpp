@@ -75,12 +75,12 @@ private:
 
     int index(const char* key, int standard, int least, int most) const {
         if (!json_.contains(key)) return standard;
-        const Param param{.name = key,
-                          .type = ParamType::integer,
-                          .min = static_cast<double>(least),
-                          .max = static_cast<double>(most),
-                          .value = static_cast<double>(standard)};
-        return static_cast<int>(std::get<double>(text_.value(std::string("/window/") + key, json_.at(key), param)));
+        const std::string pointer = std::string("/window/") + key;
+        const Param param{.name = key, .type = ParamType::integer, .min = -1, .max = most_models, .value = 0.0};
+        const int value = static_cast<int>(std::get<double>(text_.value(pointer, json_.at(key), param)));
+        if (value < least || value > most)
+            throw text_.error(pointer, fmt::format("expected an index from {} to {}", least, most));
+        return value;
     }
 
     void readModels(State& state) const {

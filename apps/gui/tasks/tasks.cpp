@@ -2,7 +2,6 @@
 
 #include <QMetaObject>
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <deque>
@@ -171,6 +170,15 @@ Tasks::Lane& Tasks::lane(const std::string& name) {
                 std::unique_lock lock(self->mutex);
                 self->wake.wait(lock, [&] { return self->stop || !self->queue.empty(); });
                 if (self->stop) break;
+                const auto held = [&] {
+                    const Task& first = *self->queue.front();
+                    return hold_background_ && first.spec.background && !first.cancelled;
+                };
+                if (held()) {
+                    using namespace std::chrono_literals;
+                    self->wake.wait_for(lock, 10ms);
+                    continue;
+                }
                 task = self->queue.front();
                 self->queue.pop_front();
             }

@@ -5,6 +5,7 @@
 #include <QObject>
 #include <QPointer>
 #include <QString>
+#include <atomic>
 #include <functional>
 #include <map>
 #include <memory>
@@ -33,6 +34,7 @@ struct TaskSpec {
     /// A task supersedes those of its key in its lane: one that waits is dropped, one that runs is cancelled.
     std::string key;
     QString title;                ///< shown with a bar once it takes longer than a moment; empty: never shown
+    bool background = false;      ///< begins only while no picture is being made: see Tasks::holdBackground()
     QObject* receiver = nullptr;  ///< of what is published; when it dies, the task is cancelled
 };
 
@@ -68,6 +70,9 @@ public:
     /// Titled tasks that run, oldest first.
     std::vector<TaskStatus> status() const;
 
+    /// While held, no background task begins; those that run go on. Whoever makes what a person waits for holds.
+    void holdBackground(bool hold) { hold_background_ = hold; }
+
     /// Called on the lane's thread before it ends, so that what a lane keeps on its engine goes before the engine.
     void atLaneEnd(const std::string& lane, std::function<void()> clean);
 
@@ -88,6 +93,7 @@ private:
     std::map<std::string, std::unique_ptr<Lane>> lanes_;
     std::vector<std::shared_ptr<Task>> tasks_;  ///< that run or wait
     std::uint64_t next_id_ = 1;
+    std::atomic<bool> hold_background_ = false;
 };
 
 }  // namespace searchlight::gui

@@ -13,8 +13,9 @@ namespace searchlight::gui {
 
 namespace {
 
-constexpr int rest_ms = 160;      // after the last change, before the full picture
-constexpr double wanted_ms = 70;  // of a preview, so that it is there within 100
+constexpr int rest_ms = 160;            // after the last change, before the full picture
+constexpr int first_picture_ms = 2000;  // that a window has to be shown in
+constexpr double wanted_ms = 70;        // of a preview, so that it is there within 100
 constexpr std::uint64_t most_walks = 20'000'000;
 
 QString textOption(const State& state, const char* name) {
@@ -56,6 +57,11 @@ PictureService::PictureService(Desk& desk, QObject* parent)
         const TaskSpec spec{.lane = "picture", .key = "model " + id.toStdString(), .receiver = this};
         desk_.tasks.start(spec, [maker = maker_, id = id.toStdString()](TaskContext&) { maker->modelFileChanged(id); });
         request(true);
+    });
+    // The first picture goes before what a person looks at later; a window that is never shown holds nothing up.
+    desk_.tasks.holdBackground(true);
+    QTimer::singleShot(first_picture_ms, this, [this] {
+        if (size_.isEmpty()) desk_.tasks.holdBackground(false);
     });
     desk_.tasks.atLaneEnd("picture", [maker = maker_] { maker->clear(); });
 }
@@ -151,6 +157,7 @@ void PictureService::submit(bool moving) {
     pending_ = false;
     running_preview_ = moving;
     running_full_ = !moving;
+    desk_.tasks.holdBackground(true);
     const Request request = requestOf(moving);
     const TaskSpec spec{
         .lane = "picture", .key = "picture", .title = moving ? QString() : tr("Picture"), .receiver = this};
@@ -196,6 +203,7 @@ void PictureService::submit(bool moving) {
     };
     desk_.tasks.start(spec, work, [this](const Error& error) {
         running_preview_ = running_full_ = false;
+        desk_.tasks.holdBackground(false);
         emit failed(QString::fromUtf8(error.what()));
         if (pending_) submit(true);
     });
@@ -203,6 +211,7 @@ void PictureService::submit(bool moving) {
 
 void PictureService::delivered(ViewPicture picture, bool moving, double ms) {
     running_preview_ = running_full_ = false;
+    if (!moving) desk_.tasks.holdBackground(false);
     const State& state = desk_.workspace.state();
     if (!exposure_ || exposure_key_ != exposureKey(state)) {
         exposure_ = picture.exposure;
@@ -243,7 +252,8 @@ void PictureService::startReference() {
     if (key == reference_key_) return;
     reference_key_ = key;
     reference_ = {};
-    const TaskSpec spec{.lane = "reference picture", .key = "walks", .title = tr("Reference"), .receiver = this};
+    const TaskSpec spec{
+        .lane = "reference picture", .key = "walks", .title = tr("Reference"), .background = true, .receiver = this};
     const auto work = [this, scene, size = size_, seed = state.seed](TaskContext& context) {
         walkPicture(scene, size.width(), size.height(), seed, most_walks, context, [&](ReferencePicture picture) {
             context.publish([this, picture = std::move(picture)] {

@@ -175,14 +175,16 @@ void ParamWidget::makeChannels(Theme& theme, bool color) {
         sliders[c] = new NumberSlider(theme, names[c], labelOf(param_) + " " + names[c],
                                       QString::fromStdString(param_.unit), sliderRange(param_), fills[c], this);
         column->addWidget(sliders[c]);
-        connect(sliders[c], &NumberSlider::edited, this, [this, sliders, color] {
+    }
+    for (NumberSlider* slider : sliders) {
+        connect(slider, &NumberSlider::edited, this, [this, sliders, color] {
             const double r = sliders[0]->value(), g = sliders[1]->value(), b = sliders[2]->value();
             if (color)
                 change(Rgb{r, g, b});
             else
                 change(std::vector<double>{r, g, b});
         });
-        connect(sliders[c], &NumberSlider::finished, this, &ParamWidget::finished);
+        connect(slider, &NumberSlider::finished, this, &ParamWidget::finished);
     }
     show_ = [sliders, color](const ParamValue& value) {
         for (std::size_t c = 0; c < 3; ++c) {

@@ -19,8 +19,8 @@ std::span<const DockEntry> docks() {
          makeModelsDock},
         {"plot", "Searchlight plot", "Curves of the models beside the reference", Qt::BottomDockWidgetArea, "Ctrl+4",
          "plot", true, makePlotDock},
-        {"spheres", "Lit spheres", "A model and random walks on a sphere", Qt::BottomDockWidgetArea, "Ctrl+5", "spheres",
-         true, makeSpheresDock},
+        {"spheres", "Lit spheres", "A model and random walks on a sphere", Qt::BottomDockWidgetArea, "Ctrl+5",
+         "spheres", true, makeSpheresDock},
         {"editor", "Editor", "The text of the active model", Qt::RightDockWidgetArea, "Ctrl+6", "editor", true,
          makeEditorDock},
     };

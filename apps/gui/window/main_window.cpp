@@ -16,6 +16,8 @@
 #include <QToolBar>
 #include <QToolButton>
 #include <QVBoxLayout>
+#include <algorithm>
+#include <map>
 
 #include "geometry/object.h"
 #include "gui/state/command_line.h"
@@ -113,10 +115,11 @@ void MainWindow::placeDocks() {
         dock->raise();
         if (area == Qt::BottomDockWidgetArea) {
             bottoms << dock;
-            heights << 300;
+            heights << std::clamp(height() / 3, 200, 360);
         } else {
             sides << dock;
-            widths << 340;
+            // Room for code on the right, where there is some.
+            widths << (area == Qt::RightDockWidgetArea && width() > 1600 ? 460 : 340);
         }
     }
     resizeDocks(sides, widths, Qt::Horizontal);

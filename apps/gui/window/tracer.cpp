@@ -3,6 +3,7 @@
 #include <QEvent>
 #include <QWidget>
 #include <algorithm>
+#include <ctime>
 
 #include "gui/material/material_edit.h"
 
@@ -12,6 +13,13 @@ namespace {
 
 constexpr int moves = 12, between_moves_ms = 350, beat_ms = 10;
 constexpr double blocked_ms = 100;
+
+// CPU time of this thread.
+double threadMs() {
+    timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+}
 
 double median(std::vector<double> values) {
     std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2));
@@ -25,9 +33,14 @@ Tracer::Tracer(Desk& desk, QWidget* window, QElapsedTimer started, QObject* pare
     window->installEventFilter(this);
     connect(&desk_.trace, &Trace::happened, this, &Tracer::happened);
     connect(&heart_, &QTimer::timeout, this, [this] {
-        const double gap = static_cast<double>(beat_.nsecsElapsed()) * 1e-6 - beat_ms;
-        longest_block_ = std::max(longest_block_, gap);
-        if (gap > blocked_ms) ++blocks_;
+        const auto note = [](Blocks& blocks, double ms) {
+            blocks.longest_ms = std::max(blocks.longest_ms, ms);
+            if (ms > blocked_ms) ++blocks.count;
+        };
+        const double own_ms = threadMs();
+        note(blocks_, static_cast<double>(beat_.nsecsElapsed()) * 1e-6 - beat_ms);
+        note(own_blocks_, own_ms - own_ms_);
+        own_ms_ = own_ms;
         beat_.restart();
     });
 }
@@ -38,6 +51,7 @@ bool Tracer::eventFilter(QObject* watched, QEvent* event) {
         // Before the first paint there is nothing to be blocked.
         heart_.start(beat_ms);
         beat_.start();
+        own_ms_ = threadMs();
     }
     return QObject::eventFilter(watched, event);
 }
@@ -98,10 +112,15 @@ QString Tracer::report() const {
                         .arg(median(values), 0, 'f', 1)
                         .arg(*std::ranges::max_element(values), 0, 'f', 1)
                         .arg(values.size());
-    text += QString("event loop blocked more than %1 ms: %2 times, longest %3 ms\n")
-                .arg(blocked_ms)
-                .arg(blocks_)
-                .arg(longest_block_, 0, 'f', 0);
+    const auto block = [&](const char* what, const Blocks& blocks) {
+        text += QString("%1 more than %2 ms: %3 times, longest %4 ms\n")
+                    .arg(what)
+                    .arg(blocked_ms)
+                    .arg(blocks.count)
+                    .arg(blocks.longest_ms, 0, 'f', 0);
+    };
+    block("event loop blocked", blocks_);
+    block("event loop busy by itself", own_blocks_);
     return text;
 }
 

@@ -25,9 +25,14 @@ public:
     /// follow. Undone afterwards.
     void exercise();
 
-    /// Longest time that the event loop did not come round, ms; and how often more than 100.
-    double longestBlock() const { return longest_block_; }
-    int blocks() const { return blocks_; }
+    /// How often the event loop did not come round for more than 100 ms, and the longest; of that, the window's own
+    /// work (CPU time of its thread), which does not count other programs.
+    struct Blocks {
+        int count = 0;
+        double longest_ms = 0;
+    };
+    const Blocks& blocks() const { return blocks_; }
+    const Blocks& ownBlocks() const { return own_blocks_; }
 
 Q_SIGNALS:
     void exercised();
@@ -42,8 +47,9 @@ private:
     Desk& desk_;
     QElapsedTimer started_, moved_, beat_;
     QTimer heart_;
-    double window_ms_ = -1, longest_block_ = 0;
-    int blocks_ = 0, moves_left_ = 0, moves_done_ = 0;
+    double window_ms_ = -1, own_ms_ = 0;
+    Blocks blocks_, own_blocks_;
+    int moves_left_ = 0, moves_done_ = 0;
     bool exercising_ = false;
     std::map<QString, double> first_;
     std::map<QString, std::vector<double>> after_move_;

@@ -132,7 +132,8 @@ QComboBox* ViewBar::makeBox(const QString& name, const QString& doc) {
     box->setAccessibleName(name);
     box->setToolTip(doc);
     box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-    box->setMinimumContentsLength(10);
+    box->setMinimumContentsLength(6);
+    box->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
     return box;
 }
 

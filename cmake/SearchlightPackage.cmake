@@ -1,0 +1,26 @@
+# What is installed, and the Debian package: cmake --build build/release --target package.
+include(GNUInstallDirs)
+install(TARGETS searchlight RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+if(TARGET searchlight-gui)
+  set(resources ${PROJECT_SOURCE_DIR}/apps/gui/resources)
+  install(TARGETS searchlight-gui RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  install(FILES ${resources}/searchlight.desktop DESTINATION ${CMAKE_INSTALL_DATADIR}/applications)
+  install(FILES ${resources}/searchlight.svg DESTINATION ${CMAKE_INSTALL_DATADIR}/icons/hicolor/scalable/apps)
+endif()
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/THIRD_PARTY.md
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/searchlight)
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME searchlight)
+set(CPACK_PACKAGE_CONTACT "Searchlight contributors")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "laboratory for BSSRDFs: subsurface scattering models")
+set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+# What is loaded at run time, which no linker knows: OpenGL on any machine, and fonts.
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "libegl1, libgl1-mesa-dri, libopengl0, fonts-dejavu-core")
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "fonts-inter, fonts-jetbrains-mono")
+set(CPACK_STRIP_FILES ON)
+include(CPack)
