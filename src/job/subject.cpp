@@ -17,6 +17,10 @@ Rgb spread(const std::vector<double>& list) {
 
 // (Rdr, ld) is a statement about one model: the scene's.
 Subject invertedSubject(const SceneMaterial& material, const SceneModel& scene_model, Engine& engine) {
+    for (const auto& [name, list] : {std::pair("Rdr", material.Rdr), {"ld", material.ld}, {"g", material.g}})
+        if (list.size() != 1 && list.size() != 3)
+            throw inputError(fmt::format("{} of the material holds {} numbers", name, list.size()),
+                             "one, or three for R, G, B");
     InversionTarget target;
     target.Rdr = spread(material.Rdr);
     target.ld_mm = spread(material.ld);

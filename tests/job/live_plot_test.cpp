@@ -78,6 +78,12 @@ TEST_F(LivePlotTest, ReferenceComesInTwoStepsAndThenFollowsSlidersWithoutWalks) 
     EXPECT_LE(far, 3);
 }
 
+TEST_F(LivePlotTest, HalfOfAPairOfTargetsIsAnError) {
+    LiveRequest request = requestOf({"dipole"});
+    request.material = {.id = "", .Rdr = {0.5}};
+    EXPECT_THROW(plot_.draw(request, LiveDetail::fine), Error);
+}
+
 TEST_F(LivePlotTest, MediaTooBrightForTablesAreWalked) {
     LiveRequest request = requestOf({"dipole"});
     request.walks = 2000;

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "transport/judge.h"
 #include "geometry/object.h"
 #include "geometry/random_stream.h"
 #include "model/physics.h"
 #include "render/sphere/directions.h"
 #include "render/sphere/sphere_reference.h"
+#include "transport/judge.h"
 
 namespace searchlight {
 namespace {

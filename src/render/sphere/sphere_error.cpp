@@ -39,15 +39,6 @@ double suitedExposure(const Image& image) {
     return *place > 0 ? std::log2(white / static_cast<double>(*place)) : 0;
 }
 
-std::vector<std::uint32_t> seenCells(const CellView& view) {
-    std::vector<std::uint32_t> cells;
-    for (const CellSample& sample : view.samples) cells.push_back(sample.cell);
-    std::ranges::sort(cells);
-    const auto [first, last] = std::ranges::unique(cells);
-    cells.erase(first, last);
-    return cells;
-}
-
 std::array<SphereError, Rgb::channels> sphereErrors(const CellView& view, const SphereExitance& model,
                                                     const SphereExitance& reference) {
     std::array<SphereError, Rgb::channels> errors;

@@ -27,7 +27,4 @@ CellValues cellValues(const std::array<std::vector<double>, Rgb::channels>& valu
 /// Stops that bring the brightest 2 % of the covered pixels to 0.8.
 double suitedExposure(const Image& image);
 
-/// Each cell that the view shows, once, ascending.
-std::vector<std::uint32_t> seenCells(const CellView& view);
-
 }  // namespace searchlight
