@@ -75,18 +75,15 @@ TEST_F(MainTest, DragsTurnTheObjectAndTheLight) {
     EXPECT_TRUE(settled());
 }
 
-TEST_F(MainTest, ModelsTechniquesAndTheReferenceAreCompared) {
-    for (const char* against : {"model 1", "technique brute_force", "reference"}) {
+TEST_F(MainTest, ModelsAndTheReferenceAreCompared) {
+    for (const char* against : {"model 1", "reference"}) {
         workspace.edit(QStringLiteral("compare"), {}, [&](State& state) {
             state.options["view"]["compare"] = std::string("difference");
             state.options["view"]["against"] = std::string(against);
         });
-        ASSERT_TRUE(
-            waitUntil([&] { return settled() && !shown().difference.isNull() && shown().difference_rms >= 0; }, 90'000))
+        ASSERT_TRUE(waitUntil([&] { return !shown().difference.isNull() && shown().difference_rms >= 0; }, 90'000))
             << against;
         EXPECT_EQ(shown().difference.size(), shown().a.size());
-        // Brute force sums the same; the first walks are noisy, and know the sphere's true answer.
-        EXPECT_TRUE(std::string(against) != "technique brute_force" || shown().difference_rms < 0.02);
         EXPECT_TRUE(std::string(against) != "reference" || shown().walks > 0);
     }
 }
@@ -215,7 +212,10 @@ TEST_F(MainTest, EveryDockHasANameAndAShortcut) {
 // What has no words on it needs a name for those who do not see it.
 TEST_F(MainTest, WhatIsClickedHasANameForScreenReaders) {
     for (const QAbstractButton* button : window->findChildren<QAbstractButton*>()) {
-        if (button->objectName().startsWith("qt_") || !button->isVisibleTo(window.get())) continue;
+        // Qt names the buttons within its own widgets.
+        if (button->objectName().startsWith("qt_") || button->inherits("QLineEditIconButton") ||
+            !button->isVisibleTo(window.get()))
+            continue;
         EXPECT_FALSE(button->text().isEmpty() && button->accessibleName().isEmpty() && button->toolTip().isEmpty())
             << button->metaObject()->className() << " in " << button->parent()->metaObject()->className();
     }

@@ -212,6 +212,8 @@ void MaterialDock::edit(const QString& text, const QString& gesture,
 
 void MaterialDock::channelEdited(const Group& group, int channel, double value, const QString& title) {
     const auto member = group.member;
+    // The sliders of the other description are hidden, and have nothing to say.
+    if ((spelledOut(material()).*member).empty()) return;
     edit(title, title, [&](SceneMaterial& material) {
         std::vector<double>& list = material.*member;
         if (list.size() != 3) list.assign(3, list.empty() ? value : list.front());

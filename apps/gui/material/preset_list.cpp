@@ -19,7 +19,7 @@ PresetList::PresetList(Desk& desk, QWidget* parent) : QWidget(parent) {
     search_->setPlaceholderText(tr("Search %1 measured materials").arg(materials().size()));
     search_->setClearButtonEnabled(true);
     search_->setAccessibleName(tr("Search materials"));
-    search_->addAction(desk.theme.icon("search"), QLineEdit::LeadingPosition);
+    search_->addAction(desk.theme.icon("search"), QLineEdit::LeadingPosition)->setToolTip(tr("Search"));
     column->addWidget(search_);
     list_ = new QListWidget(this);
     list_->setObjectName("presets");
