@@ -132,8 +132,9 @@ TEST_F(DocksTest, AModelIsWrittenBrokenMendedAndFollowedLive) {
     ASSERT_TRUE(file.open(QIODevice::ReadOnly));
     EXPECT_FALSE(file.readAll().contains("vec2 R")) << "what does not work is not written";
 
-    // Mended, and changed: written when typing pauses, and the curve follows.
+    // Mended, and changed: with "Live" it is written when typing pauses, and the curve follows.
     edit->undo();
+    find<QToolButton>(window.get(), "editor.live")->click();
     cursor = edit->document()->find(QStringLiteral("0.5 * SigmaSp"));
     edit->setTextCursor(cursor);
     edit->insertPlainText(QStringLiteral("0.25 * SigmaSp"));

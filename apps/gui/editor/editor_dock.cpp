@@ -80,7 +80,6 @@ private:
         live_->setText(tr("Live"));
         live_->setAccessibleName(tr("Live: write the file when typing pauses"));
         live_->setCheckable(true);
-        live_->setChecked(true);
         live_->setToolTip(tr("When typing pauses and the text works, it is written, and all pictures follow"));
         bar->addWidget(live_);
         save_ = new QToolButton(this);
