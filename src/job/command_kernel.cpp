@@ -8,6 +8,7 @@
 #include "base/text.h"
 #include "base/version.h"
 #include "job/command_table.h"
+#include "job/kernel_export.h"
 #include "job/kernel_judged.h"
 #include "job/kernel_page.h"
 #include "job/kernel_truth.h"
@@ -50,26 +51,6 @@ Json truthJson(const KernelTruth& truth, const Judge& judge) {
             {"energy_beyond", {1 - inside.r, 1 - inside.g, 1 - inside.b}},
             {"tail_of_profile", truth.truth.tail()},
             {"pixel_mm", judge.pixel()}};
-}
-
-KernelLabel labelOf(const Subject& subject, const KernelTruth& truth, const std::string& method) {
-    return {.material = subject.name, .truth = truth.label, .method = method};
-}
-
-std::string exported(const std::string& format, const JudgedKernel& judged, const Subject& subject,
-                     const KernelTruth& truth) {
-    KernelLabel label = labelOf(subject, truth, judged.made.name);
-    label.errors = errorLines(judged);
-    std::vector<std::string> names;
-    for (const TapsFormat& known : tapsFormats()) {
-        if (known.name == format) return known.write(judged.made.taps, label);
-        names.emplace_back(known.name);
-    }
-    for (const std::string_view engine : engineProfiles()) {
-        if (engine == format) return engineProfile(engine, truth.truth, label, subject.medium.eta);
-        names.emplace_back(engine);
-    }
-    throw unknownName(ErrorKind::usage, "export", format, names);
 }
 
 JobResult runCheck(const Job& job, const Options& options, const Subject& subject, const KernelTruth& truth,
@@ -171,7 +152,7 @@ JobResult runKernel(const Job& job, Engine& engine, Observer& observer) {
     document.update(judgedJson(judged));
     result.json = document.dump(1);
     const std::string format = options.text("export");
-    const std::string shown = exported(format.empty() ? "hlsl" : format, judged, subject, truth);
+    const std::string shown = exportedKernel(format.empty() ? "hlsl" : format, judged, subject, truth);
     if (format.empty())
         result.text = fmt::format("{} of {}, against {}\n\n{}\n{}", judged.made.name, subject.name, truth.label,
                                   judgedText({judged}), shown);

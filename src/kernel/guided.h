@@ -5,7 +5,7 @@
 
 namespace searchlight {
 
-/// A factor at which the mass of the five materials of [Freude2014] is off by up to 25 %, as there.
+/// A factor at which the mass of the five materials of [Freude2014] is off by up to 29 %.
 inline constexpr double kThesisSoftness = 0.1;
 
 struct GuidedOptions {

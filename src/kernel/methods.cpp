@@ -32,7 +32,13 @@ void requireRank(int rank, int most) {
         throw usageError(fmt::format("rank {} is none of this method", rank), fmt::format("expected 1 to {}", most));
 }
 
-// The radial fit's two Gaussians on one line, with one weight for all channels: where a hand would begin.
+Taps tapsOf(const SeparableKernel& kernel, const MethodOptions& options) {
+    if (options.placed) return placedTaps(kernel, options.taps);
+    return quadraticTaps(kernel, options.taps, options.rest);
+}
+
+}  // namespace
+
 TwoGaussians fittedTwoGaussians(const GroundTruth& truth) {
     const SeparableKernel gaussians = fittedGaussians(truth, 2, GaussianMeasure::pictures, 0);
     TwoGaussians fitted;
@@ -49,13 +55,6 @@ TwoGaussians fittedTwoGaussians(const GroundTruth& truth) {
     fitted.near_weight = channels > 0 ? weight / channels : 1;
     return fitted;
 }
-
-Taps tapsOf(const SeparableKernel& kernel, const MethodOptions& options) {
-    if (options.placed) return placedTaps(kernel, options.taps);
-    return quadraticTaps(kernel, options.taps, options.rest);
-}
-
-}  // namespace
 
 MadeKernel makeKernel(const GroundTruth& truth, const CellKernel& cells, const MethodOptions& options) {
     if (options.taps < 3 || options.taps > 101 || options.taps % 2 == 0)

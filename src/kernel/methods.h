@@ -50,6 +50,9 @@ struct MadeKernel {
 /// two Gaussians on one line. Throws a usage Error for an unknown name and for numbers that make no sense.
 MadeKernel makeKernel(const GroundTruth& truth, const CellKernel& cells, const MethodOptions& options);
 
+/// The radial fit's two Gaussians on one line, with one weight for all channels: where a hand would begin.
+TwoGaussians fittedTwoGaussians(const GroundTruth& truth);
+
 /// Lines that the taps stand for: each weight spread evenly over its cell, as sampleTaps gathered it.
 SeparableKernel kernelOfTaps(const Taps& taps);
 

@@ -1,6 +1,7 @@
 #include "gui/window/docks.h"
 
 #include "gui/editor/editor_dock.h"
+#include "gui/kernel/kernel_dock.h"
 #include "gui/lights/lights_dock.h"
 #include "gui/material/material_dock.h"
 #include "gui/models/models_dock.h"
@@ -21,6 +22,8 @@ std::span<const DockEntry> docks() {
          "plot", true, makePlotDock},
         {"spheres", "Lit spheres", "A model and random walks on a sphere", Qt::BottomDockWidgetArea, "Ctrl+5",
          "spheres", true, makeSpheresDock},
+        {"kernel", "Kernels", "Separable kernels of the material, and how far they are from the truth",
+         Qt::BottomDockWidgetArea, "Ctrl+7", "kernel", true, makeKernelDock},
         {"editor", "Editor", "The text of the active model", Qt::RightDockWidgetArea, "Ctrl+6", "editor", true,
          makeEditorDock},
     };
