@@ -46,7 +46,7 @@ RenderSettings settingsOf(const PictureRequest& request, std::size_t points) {
     settings.technique = request.technique;
     settings.technique_options = request.technique_options;
     settings.edge_samples = request.moving ? 2 : 8;
-    settings.light_samples = request.moving ? 128 : 512;
+    settings.light_samples = request.moving ? 64 : 256;
     settings.seed = request.seed;
     settings.points_cache = pointCache();
     if (request.moving) settings.points = points;

@@ -40,8 +40,13 @@ TaskBar::TaskBar(Desk& desk, QWidget* parent) : QWidget(parent), desk_(desk) {
     cancel_->setIconSize({12, 12});
     cancel_->setToolTip(tr("Cancel"));
     cancel_->setAccessibleName(tr("Cancel the running task"));
-    for (QWidget* each : {static_cast<QWidget*>(text_), static_cast<QWidget*>(bar_), static_cast<QWidget*>(cancel_)})
+    for (QWidget* each : {static_cast<QWidget*>(text_), static_cast<QWidget*>(bar_), static_cast<QWidget*>(cancel_)}) {
         row->addWidget(each);
+        // The bar is as high without a task, or the view above would change its size and its picture begin anew.
+        QSizePolicy policy = each->sizePolicy();
+        policy.setRetainSizeWhenHidden(true);
+        each->setSizePolicy(policy);
+    }
     connect(cancel_, &QToolButton::clicked, this, [this] { desk_.tasks.cancel(shown_); });
     connect(&desk_.tasks, &Tasks::statusChanged, this, &TaskBar::refresh);
     connect(&desk_.theme, &Theme::changed, this, [this] { cancel_->setIcon(desk_.theme.icon("close")); });
