@@ -44,7 +44,7 @@ function(searchlight_tests folder)
     target_compile_definitions(${target} PRIVATE
       SEARCHLIGHT_SOURCE_DIR="${PROJECT_SOURCE_DIR}" SEARCHLIGHT_BINARY_DIR="${PROJECT_BINARY_DIR}")
     target_precompile_headers(${target} PRIVATE <gtest/gtest.h> <gmock/gmock.h> <vector> <string>)
-    set(timeout 120)
+    set(timeout 300)
     if(SEARCHLIGHT_SANITIZE)
       set(timeout 600)
     endif()

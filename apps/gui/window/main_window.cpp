@@ -45,7 +45,8 @@ MainWindow::MainWindow(Desk& desk, QString settings_file, QWidget* parent)
     : QMainWindow(parent), desk_(desk), settings_file_(std::move(settings_file)) {
     setObjectName("main");
     setWindowIcon(QIcon(":/searchlight.svg"));
-    setDockOptions(AnimatedDocks | AllowNestedDocks | AllowTabbedDocks | GroupedDragging);
+    // Qt 6.4 crashes within groups of docks that are dragged together, and while it animates docks that change.
+    setDockOptions(AllowNestedDocks | AllowTabbedDocks);
     setTabPosition(Qt::AllDockWidgetAreas, QTabWidget::North);
     setCorner(Qt::BottomLeftCorner, Qt::LeftDockWidgetArea);
     setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
