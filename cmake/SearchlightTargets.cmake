@@ -22,6 +22,12 @@ function(searchlight_embed target)
   target_sources(${target} PRIVATE ${output})
 endfunction()
 
+# Seconds within which a test ends on the slowest machine; label slow: more.
+set(SEARCHLIGHT_TEST_TIMEOUT 300)
+if(SEARCHLIGHT_SANITIZE)
+  set(SEARCHLIGHT_TEST_TIMEOUT 900)
+endif()
+
 # searchlight_tests(folder LINK ...): *_test.cpp beside the caller. *_gl_test.cpp gets the label gl, *_slow_test.cpp
 # the label slow, the rest the label fast.
 function(searchlight_tests folder)
@@ -44,10 +50,7 @@ function(searchlight_tests folder)
     target_compile_definitions(${target} PRIVATE
       SEARCHLIGHT_SOURCE_DIR="${PROJECT_SOURCE_DIR}" SEARCHLIGHT_BINARY_DIR="${PROJECT_BINARY_DIR}")
     target_precompile_headers(${target} PRIVATE <gtest/gtest.h> <gmock/gmock.h> <vector> <string>)
-    set(timeout 300)
-    if(SEARCHLIGHT_SANITIZE)
-      set(timeout 600)
-    endif()
+    set(timeout ${SEARCHLIGHT_TEST_TIMEOUT})
     if(label STREQUAL slow)
       set(timeout 1200)
     endif()
