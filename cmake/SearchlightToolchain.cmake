@@ -34,3 +34,15 @@ find_package(fmt REQUIRED)
 find_package(TBB REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(Threads REQUIRED)
+
+# Vector code is compiled once for each instruction set that Highway knows, but for SSSE3: no machine of the last fifteen
+# years prefers it. Under sanitizers, where one set takes minutes a file, AVX2 and the fallback without SIMD are enough.
+# Highway withholds that fallback, 4 emulated lanes, from GCC before 12.3 for a fault in 16-bit products: there are none.
+find_library(HWY_LIBRARY hwy REQUIRED)
+add_library(searchlight_vectors INTERFACE)
+target_link_libraries(searchlight_vectors INTERFACE ${HWY_LIBRARY})
+set(disabled HWY_SSSE3)
+if(SEARCHLIGHT_SANITIZE)
+  set(disabled "(HWY_SSSE3|HWY_SSE4|HWY_AVX3)")
+endif()
+target_compile_definitions(searchlight_vectors INTERFACE HWY_DISABLED_TARGETS=${disabled} HWY_BROKEN_EMU128=0)

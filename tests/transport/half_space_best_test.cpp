@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "exact.h"
+#include "instruction_sets.h"
 #include "transport/half_space/guided_walk.h"
 #include "transport/half_space/importance.h"
 #include "transport/half_space/single_scattering.h"
@@ -157,7 +158,7 @@ HalfSpaceResult onTarget(std::int64_t target, const HalfSpaceProblem& problem, d
 }
 
 TEST(HalfSpaceBest, Avx2AndAvx512AgreeBitForBit) {
-    if ((hwy::SupportedTargets() & HWY_AVX3) == 0) GTEST_SKIP() << "this processor has no AVX-512";
+    if (!hasInstructionSet(HWY_AVX3)) GTEST_SKIP() << "no AVX-512 here";
     for (const Medium& medium : media)
         EXPECT_EQ(numbers(onTarget(HWY_AVX3, medium.problem, 5e4)), numbers(onTarget(HWY_AVX2, medium.problem, 5e4)))
             << medium.name;
@@ -173,7 +174,7 @@ TEST(HalfSpaceBest, TargetsWithoutFusedMultiplyAddAgreeStatistically) {
     Judge judge;
     std::uint64_t seed = 58;  // comparisons with one and the same result would not be independent
     for (const std::int64_t target : {HWY_SSE4, HWY_EMU128}) {
-        if (target == HWY_SSE4 && (hwy::SupportedTargets() & HWY_SSE4) == 0) continue;
+        if (target == HWY_SSE4 && !hasInstructionSet(HWY_SSE4)) continue;
         for (const Medium& medium : media) {
             const HalfSpaceTally a = walk(medium.problem, 1e5, seed++, {0, 0.01, 0.1, 0.3, 1, 3, 10}, best).all,
                                  b = onTarget(target, medium.problem, target == HWY_SSE4 ? 1e5 : 4e3).all;

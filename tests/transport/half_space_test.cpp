@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "exact.h"
+#include "instruction_sets.h"
 
 namespace searchlight {
 namespace {
@@ -115,7 +116,7 @@ TEST(HalfSpace, RefusesImpossibleStrips) {
 }
 
 TEST(HalfSpace, Avx2AndAvx512AgreeBitForBit) {
-    if ((hwy::SupportedTargets() & HWY_AVX3) == 0) GTEST_SKIP() << "this processor has no AVX-512";
+    if (!hasInstructionSet(HWY_AVX3)) GTEST_SKIP() << "no AVX-512 here";
     for (const HalfSpaceProblem& problem : problems) {
         const HalfSpaceResult wide = onTarget(HWY_AVX3, problem, 200'000),
                               narrow = onTarget(HWY_AVX2, problem, 200'000);
@@ -132,7 +133,7 @@ TEST(HalfSpace, Avx2AndAvx512AgreeBitForBit) {
 // errors: 0.4 % of a total and 1 to 3 % of a bin with SSE4, four times that with emulated lanes, which are slow.
 TEST(HalfSpace, TargetsWithoutFusedMultiplyAddAgreeStatistically) {
     for (const std::int64_t target : {HWY_SSE4, HWY_EMU128}) {
-        if (target == HWY_SSE4 && (hwy::SupportedTargets() & HWY_SSE4) == 0) continue;
+        if (target == HWY_SSE4 && !hasInstructionSet(HWY_SSE4)) continue;
         const std::uint64_t walks = target == HWY_SSE4 ? 100'000 : 5'000;
         Judge judge;
         for (const HalfSpaceProblem& problem : problems) {

@@ -5,7 +5,6 @@
 #include <numbers>
 #include <random>
 
-#define HWY_BROKEN_EMU128 0  // as in half_space_walk.cpp
 #include "transport/walk/fresnel.h"
 #include "transport/walk/lane_scatter-inl.h"
 

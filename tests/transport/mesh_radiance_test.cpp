@@ -3,6 +3,7 @@
 #include <hwy/targets.h>
 
 #include "base/error.h"
+#include "instruction_sets.h"
 #include "judge.h"
 #include "light/light_sampler.h"
 #include "mesh_shapes.h"
@@ -174,7 +175,7 @@ TEST(BodyRadiance, RefusesLightThatNoWalkMeets) {
 
 // Lanes with FMA do the same arithmetic whatever their number.
 TEST(BodyWalk, Avx2AndAvx512AgreeBitForBit) {
-    if (!(hwy::SupportedTargets() & HWY_AVX3)) GTEST_SKIP() << "this processor has no AVX-512";
+    if (!hasInstructionSet(HWY_AVX3)) GTEST_SKIP() << "no AVX-512 here";
     const MeshBody body(sphereMesh(1, 3), {.cell_area_mm2 = 0.1, .shortest_mfp = 0.1});
     const Medium medium = channelMedium(0.2, 10, 0.5, 1.3);
     const auto on = [&](std::int64_t target) {

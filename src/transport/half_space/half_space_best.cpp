@@ -22,9 +22,6 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "transport/half_space/half_space_best.cpp"
-// As in half_space_walk.cpp.
-#define HWY_DISABLED_TARGETS HWY_SSSE3
-#define HWY_BROKEN_EMU128 0
 #include <hwy/foreach_target.h>
 
 #include "transport/half_space/ways_out-inl.h"

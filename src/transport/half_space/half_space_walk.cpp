@@ -17,11 +17,6 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "transport/half_space/half_space_walk.cpp"
-// SSSE3 would add a copy of the loop that no machine of the last fifteen years prefers. The fallback without SIMD has 4
-// emulated lanes; Highway withholds it from GCC before 12.3 for a fault in 16-bit products, of which there are none
-// here.
-#define HWY_DISABLED_TARGETS HWY_SSSE3
-#define HWY_BROKEN_EMU128 0
 #include <hwy/foreach_target.h>
 
 #include "transport/walk/lane_walk-inl.h"

@@ -25,9 +25,6 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "transport/mesh/body_walk.cpp"
-// As in half_space_walk.cpp.
-#define HWY_DISABLED_TARGETS HWY_SSSE3
-#define HWY_BROKEN_EMU128 0
 #include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 
