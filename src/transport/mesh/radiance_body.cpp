@@ -137,13 +137,14 @@ BodyRadiance walkAny(const Body& body, const Medium& medium, int channel, const 
     if (options.walks_per_pixel == 0) throw inputError("a reference needs at least one walk per pixel");
     if (!medium.scatters(channel)) throw inputError("the medium does not scatter in this channel");
     const double sigma_t = medium.sigmaT()[channel];
-    const BodyMedium walk{sigma_t, medium.sigma_a[channel] / sigma_t, medium.g[channel], medium.eta};
+    BodyMedium walk{sigma_t, medium.sigma_a[channel] / sigma_t, medium.g[channel], medium.eta};
     const auto* const lights = std::get_if<const LightSampler*>(&light);
 
     ChunkedWalk job;
     job.plan.walks = options.walks_per_pixel * camera.pixels();
     job.plan.size = std::clamp((job.plan.walks + kFewestChunks - 1) / kFewestChunks, std::uint64_t{1}, kLargestChunk);
     if (options.control.state && !options.control.state->empty()) job.plan.size = options.control.state->chunk_size;
+    if (options.large_steps) walk.ways = waysFor(job.plan.size);
     job.threads = options.threads;
     job.control = options.control;
     const ChunkedResult walked = walkChunks(

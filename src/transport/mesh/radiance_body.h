@@ -15,7 +15,8 @@ namespace searchlight {
 struct RadianceOptions {
     std::uint64_t walks_per_pixel = 64;
     std::uint64_t seed = 1;
-    int threads = 0;  ///< 0: all
+    int threads = 0;          ///< 0: all
+    bool large_steps = true;  ///< false: each collision is walked, to check with
     WalkControl control;
 };
 
