@@ -41,9 +41,10 @@ const MeshBody& body(bool regions, double mfp) {
     return *kept;
 }
 
-void walk(benchmark::State& state, const Medium& medium, double shortest_mfp, bool regions, double walks) {
+void walk(benchmark::State& state, const Medium& medium, double shortest_mfp, bool regions, bool large_steps,
+          double walks) {
     const MeshBody& in = body(regions, shortest_mfp);
-    BodyOptions options{.walks = static_cast<std::uint64_t>(walks), .threads = 1};
+    BodyOptions options{.walks = static_cast<std::uint64_t>(walks), .threads = 1, .large_steps = large_steps};
     Observer observer;
     double collisions = 0, flights = 0, rays = 0, entries = 0;
     const double begin = cpuSeconds();
@@ -123,12 +124,15 @@ const Medium forward = makeMedium({0.0021}, {21.9}, {0.9}, 1.5);
 
 BENCHMARK_CAPTURE(shortRays, one_at_a_time, 0.456, false)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(shortRays, packets, 0.456, true)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(walk, marble_red_ray_each, marble_red, 0.33, false, 3e5)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(walk, marble_red_regions, marble_red, 0.33, true, 2e6)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(walk, marble_blue_regions, marble_blue, 0.33, true, 1e6)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(walk, milk_green_regions, milk_green, 0.31, true, 1e6)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(walk, skin1_red_regions, skin1_red, 0.41, true, 1e6)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(walk, forward_g_09_regions, forward, 0.046, true, 1e5)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(walk, marble_red_ray_each, marble_red, 0.33, false, false, 1e6)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(walk, marble_red_regions, marble_red, 0.33, true, false, 2e6)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(walk, marble_red_large_steps, marble_red, 0.33, true, true, 2e6)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(walk, marble_blue_large_steps, marble_blue, 0.33, true, true, 1e6)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(walk, milk_green_regions, milk_green, 0.31, true, false, 1e6)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(walk, milk_green_large_steps, milk_green, 0.31, true, true, 1e6)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(walk, skin1_red_large_steps, skin1_red, 0.41, true, true, 1e6)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(walk, forward_g_09_regions, forward, 0.046, true, false, 1e5)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(walk, forward_g_09_large_steps, forward, 0.046, true, true, 1e5)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace searchlight

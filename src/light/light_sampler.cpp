@@ -136,10 +136,20 @@ Rgb LightSampler::radiance(Vec3 position, Vec3 direction) const {
     return sum;
 }
 
+std::size_t LightSampler::count() const { return impl_->sources.size(); }
+
+bool LightSampler::singular(std::size_t light) const {
+    return std::visit([](const auto& source) { return source.singular(); }, impl_->sources[light]);
+}
+
 bool LightSampler::singular() const {
-    return std::ranges::any_of(impl_->sources, [](const Source& light) {
-        return std::visit([](const auto& source) { return source.singular(); }, light);
-    });
+    for (std::size_t light = 0; light < count(); ++light)
+        if (singular(light)) return true;
+    return false;
+}
+
+LightSample LightSampler::sampleOf(std::size_t light, Vec3 position, double u, double v) const {
+    return std::visit([&](const auto& source) { return source.sample(position, u, v); }, impl_->sources[light]);
 }
 
 LightSample LightSampler::sample(Vec3 position, double u_light, double u, double v) const {
@@ -148,8 +158,7 @@ LightSample LightSampler::sample(Vec3 position, double u_light, double u, double
     const auto chosen = std::min<std::ptrdiff_t>(std::ranges::upper_bound(cumulative, u_light) - cumulative.begin(),
                                                  std::ssize(cumulative) - 1);
     const double probability = cumulative[chosen] - (chosen > 0 ? cumulative[chosen - 1] : 0);
-    LightSample sample =
-        std::visit([&](const auto& source) { return source.sample(position, u, v); }, impl_->sources[chosen]);
+    LightSample sample = sampleOf(static_cast<std::size_t>(chosen), position, u, v);
     sample.irradiance_over_pdf = (1 / probability) * sample.irradiance_over_pdf;
     sample.pdf *= probability;
     return sample;

@@ -1,6 +1,7 @@
 // One direction at a time from all lights of a scene, for walks that are lit at random points of a surface.
 #pragma once
 
+#include <cstddef>
 #include <limits>
 #include <memory>
 
@@ -32,6 +33,12 @@ public:
 
     /// At `position` (mm) for three uniform numbers in [0, 1).
     LightSample sample(Vec3 position, double u_light, double u, double v) const;
+
+    /// Lights that emit, and the same of one of them alone.
+    std::size_t count() const;
+    LightSample sampleOf(std::size_t light, Vec3 position, double u, double v) const;
+    /// Whether a light comes from a single direction at each point.
+    bool singular(std::size_t light) const;
 
     /// What comes to `position` (mm) from a unit direction, of lights that have an extent: the mean of sample() over
     /// directions, where it is not from a single one.

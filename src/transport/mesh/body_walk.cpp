@@ -3,6 +3,9 @@
 // the surface, unscattered, and its next step is a fresh one: free paths have no memory. Walks that end are replaced at
 // once.
 //
+// Where a ball around a collision lies inside the walk's region, the walk goes through it in one large step
+// (large_steps-inl.h).
+//
 // Positions are float, in mm from the centre of the body. A coordinate of a body of 100 mean free paths is known to
 // 4e-6 of one, and a step adds a rounding as often up as down. At the surface rounding is systematic: a walk goes on
 // from a point that is moved inwards by 2^-22 of the body's size, so that a flight does not meet the triangle that it
@@ -28,6 +31,7 @@
 #include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 
+#include "transport/mesh/large_steps-inl.h"
 #include "transport/walk/lane_walk-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -39,11 +43,16 @@ struct Region {
     FloatV x, y, z, square;     // middle of the ball, and square of its radius
     FloatV nx, ny, nz, offset;  // normal . (position - middle) is below offset
 
+    // Square of the distance from the middle.
+    HWY_INLINE FloatV away(FloatV px, FloatV py, FloatV pz) const {
+        const FloatV dx = hn::Sub(px, x), dy = hn::Sub(py, y), dz = hn::Sub(pz, z);
+        return hn::MulAdd(dx, dx, hn::MulAdd(dy, dy, hn::Mul(dz, dz)));
+    }
+
     HWY_INLINE FloatM holds(FloatV px, FloatV py, FloatV pz) const {
         const FloatV dx = hn::Sub(px, x), dy = hn::Sub(py, y), dz = hn::Sub(pz, z);
-        const FloatV away = hn::MulAdd(dx, dx, hn::MulAdd(dy, dy, hn::Mul(dz, dz)));
         const FloatV height = hn::MulAdd(nx, dx, hn::MulAdd(ny, dy, hn::Mul(nz, dz)));
-        return hn::And(hn::Lt(away, square), hn::Lt(height, offset));
+        return hn::And(hn::Lt(away(px, py, pz), square), hn::Lt(height, offset));
     }
 };
 
@@ -51,14 +60,20 @@ struct Region {
 struct alignas(64) LaneRegions {
     float x[kLanes], y[kLanes], z[kLanes], square[kLanes];
     float nx[kLanes], ny[kLanes], nz[kLanes], offset[kLanes];
+    float deep[kLanes];  // square of the distance from the middle up to which a large step fits into the ball
 
     HWY_INLINE Region load(std::size_t at) const {
         const Float d;
         return {hn::Load(d, x + at),  hn::Load(d, y + at),  hn::Load(d, z + at),  hn::Load(d, square + at),
                 hn::Load(d, nx + at), hn::Load(d, ny + at), hn::Load(d, nz + at), hn::Load(d, offset + at)};
     }
-    HWY_INLINE void scatter(const Region& r, IntV lanes) {
+    // `least`: radius of the smallest large step. There is none where a plane cuts the ball.
+    HWY_INLINE void scatter(const Region& r, IntV lanes, FloatV least) {
         const Float d;
+        const FloatV inner = hn::Max(hn::Sub(hn::Sqrt(r.square), least), hn::Zero(d));
+        const FloatM cut =
+            hn::Or(hn::Ne(r.nx, hn::Zero(d)), hn::Or(hn::Ne(r.ny, hn::Zero(d)), hn::Ne(r.nz, hn::Zero(d))));
+        hn::ScatterIndex(hn::IfThenZeroElse(cut, hn::Mul(inner, inner)), d, deep, lanes);
         hn::ScatterIndex(r.x, d, x, lanes), hn::ScatterIndex(r.y, d, y, lanes), hn::ScatterIndex(r.z, d, z, lanes);
         hn::ScatterIndex(r.nx, d, nx, lanes), hn::ScatterIndex(r.ny, d, ny, lanes);
         hn::ScatterIndex(r.nz, d, nz, lanes), hn::ScatterIndex(r.offset, d, offset, lanes);
@@ -165,6 +180,7 @@ struct Group {
     std::uint64_t walking = 0;    // a bit per lane
     std::uint64_t uncleared = 0;  // flights that may have met the surface
     std::uint64_t ends = 0;       // absorbed
+    std::uint64_t deep = 0;       // where a large step fits
     std::uint64_t doubtful = 0;   // flights since `sure` were tested and met nothing
     Sure sure[kLanes];            // of those lanes: the start of the last flight known to begin inside
     int taken_back[kLanes] = {};
@@ -174,18 +190,24 @@ struct Group {
     alignas(64) std::int32_t survives[kLanes];
     float weight[kLanes];
     std::uint32_t tag[kLanes];
+    std::int32_t way[kLanes];  // of the next large step
 };
 
 template <class Body, class Regions, bool kIsotropic>
 class BodyWalker {
 public:
     BodyWalker(const Body& body, const BodyMedium& medium, WalkSource& source, SplitMix64 seeds)
-        : body_(body), medium_(medium), regions_(body), source_(source) {
+        : body_(body),
+          medium_(medium),
+          regions_(body),
+          source_(source),
+          steps_(medium.sigma_t, medium.g, medium.ways, SplitMix64(seeds.next())) {
         mfp_ = static_cast<float>(1 / medium.sigma_t);
         collisions_per_log_ = medium.absorbed > 0 ? -1 / std::log1p(-medium.absorbed) : 0;
         for (Group& group : groups_) {
             seed(group.lanes[0], seeds);
             std::ranges::fill(group.regions.offset, 1.0f);
+            std::ranges::fill(group.regions.deep, deepAtFirst());
         }
         random_ = SplitMix64(seeds.next());
     }
@@ -203,6 +225,7 @@ public:
                 for (Group& group : groups_) cross({&group, 1});
             }
             for (Group& group : groups_) {
+                if (group.deep != 0) step(group);
                 for (; group.ends != 0; group.ends &= group.ends - 1) {
                     const auto lane = static_cast<std::size_t>(std::countr_zero(group.ends));
                     chunk_.absorbed += group.weight[lane];
@@ -226,17 +249,20 @@ private:
                      half_qq = hn::Set(d, static_cast<float>(0.5 * (1 - g) * (1 - g)));
         const Lanes& before = from(group);
         Lanes& after = to(group);
-        std::uint64_t stay = 0, ends = 0;
+        std::uint64_t stay = 0, ends = 0, deep = 0;
         for (std::size_t at = 0; at < kLanes; at += width) {
             Pack pack = load(before, at);
             fly(pack, hn::Mul(exponential(pack.random.next()), hn::Load(d, group.reach + at)));
-            stay |= bitsOf(group.regions.load(at).holds(pack.x, pack.y, pack.z)) << at;
+            const Region region = group.regions.load(at);
+            stay |= bitsOf(region.holds(pack.x, pack.y, pack.z)) << at;
+            deep |= bitsOf(hn::Lt(region.away(pack.x, pack.y, pack.z), hn::Load(d, group.regions.deep + at))) << at;
             scatter<kIsotropic>(pack, asymmetry, half_qq);
             store(pack, after, at);
             ends |= bitsOf(hn::RebindMask(d, hn::Gt(pack.collisions, hn::Load(Int(), group.survives + at)))) << at;
         }
         group.uncleared = group.walking & ~stay;
         group.ends = ends;
+        group.deep = deep & stay & group.walking & ~ends;
         chunk_.flights += static_cast<std::uint64_t>(std::popcount(group.walking));
         if (looksUp()) fetch(group);
     }
@@ -290,12 +316,64 @@ private:
                     {choose(end.x, begin.x), choose(end.y, begin.y), choose(end.z, begin.z),
                      choose(end.square, hn::IfThenElseZero(by_begin, begin.square)), choose(end.nx, begin.nx),
                      choose(end.ny, begin.ny), choose(end.nz, begin.nz), choose(end.offset, begin.offset)},
-                    at);
+                    at, hn::Set(d, leastStep()));
                 std::uint64_t cleared = bitsOf(hn::Or(by_end, by_begin));
                 for (; cleared != 0; cleared &= cleared - 1)
                     group.uncleared &=
                         ~(std::uint64_t{1} << list[i + static_cast<std::size_t>(std::countr_zero(cleared))]);
             }
+        }
+    }
+
+    // Square of 0 where walks take no large steps: nothing is that near to a middle.
+    float leastStep() const { return medium_.ways > 0 ? steps_.least() : std::numeric_limits<float>::infinity(); }
+    float deepAtFirst() const {
+        const float inner = std::max(std::sqrt(regions_.first()) - leastStep(), 0.0f);
+        return inner * inner;
+    }
+
+    // Large steps of walks that have just scattered deep inside their region.
+    HWY_NOINLINE void step(Group& group) {
+        const Float d;
+        const Int di;
+        const std::size_t width = hn::Lanes(d);
+        Lanes& lanes = to(group);
+        HWY_ALIGN std::int32_t list[kLanes], bits[kLanes], balls[16];
+        std::size_t count = 0;
+        for (std::uint64_t rest = group.deep; rest != 0; rest &= rest - 1) {
+            bits[count] = static_cast<std::int32_t>(random_.next() >> 32);
+            list[count++] = std::countr_zero(rest);
+        }
+        for (; count % width != 0; ++count) list[count] = list[count - 1], bits[count] = bits[count - 1];
+        for (std::size_t i = 0; i < count; i += width) {
+            const IntV at = hn::Load(di, list + i);
+            const auto take = [&](const float* of) { return hn::GatherIndex(d, of, at); };
+            LargeStep step{take(lanes.x),
+                           take(lanes.y),
+                           take(lanes.z),
+                           {take(lanes.u), take(lanes.v), take(lanes.w)},
+                           hn::GatherIndex(di, lanes.collisions, at)};
+            const LaneRegions& r = group.regions;
+            const Region region{take(r.x), take(r.y), take(r.z), take(r.square), {}, {}, {}, {}};
+            const IntV ball =
+                steps_.ballOf(hn::Sub(hn::Sqrt(region.square), hn::Sqrt(region.away(step.x, step.y, step.z))));
+            hn::Store(ball, di, balls);
+            for (std::size_t lane = 0; lane < width; ++lane) steps_.need(balls[lane]);
+            const IntV way = hn::GatherIndex(di, group.way, at);
+            steps_.take(step, ball, way, azimuth(hn::Load(di, bits + i)));
+            const IntV survives = hn::GatherIndex(di, group.survives, at);
+            const hn::Mask<Int> ends = hn::Gt(step.collisions, survives);
+            step.collisions = hn::IfThenElse(ends, hn::Add(survives, hn::Set(di, 1)), step.collisions);
+            hn::ScatterIndex(step.x, d, lanes.x, at);
+            hn::ScatterIndex(step.y, d, lanes.y, at);
+            hn::ScatterIndex(step.z, d, lanes.z, at);
+            hn::ScatterIndex(step.direction.u, d, lanes.u, at);
+            hn::ScatterIndex(step.direction.v, d, lanes.v, at);
+            hn::ScatterIndex(step.direction.w, d, lanes.w, at);
+            hn::ScatterIndex(step.collisions, di, lanes.collisions, at);
+            hn::ScatterIndex(hn::Add(way, hn::Set(di, 1)), di, group.way, at);
+            for (std::uint64_t ended = bitsOf(hn::RebindMask(d, ends)); ended != 0; ended &= ended - 1)
+                group.ends |= std::uint64_t{1} << list[i + static_cast<std::size_t>(std::countr_zero(ended))];
         }
     }
 
@@ -365,6 +443,7 @@ private:
 
     void put(Group& group, Lanes& lanes, std::size_t lane, Vec3f position, Vec3f direction) {
         group.regions.square[lane] = regions_.first();
+        group.regions.deep[lane] = deepAtFirst();
         lanes.x[lane] = position.x, lanes.y[lane] = position.y, lanes.z[lane] = position.z;
         lanes.u[lane] = direction.x, lanes.v[lane] = direction.y, lanes.w[lane] = direction.z;
     }
@@ -393,6 +472,7 @@ private:
         group.reach[lane] = mfp_;
         group.weight[lane] = entry.weight;
         group.tag[lane] = entry.tag;
+        if (medium_.ways > 0) group.way[lane] = static_cast<std::int32_t>(random_.next() & 0xFFFF);
         // Absorption is drawn at once for the whole walk: it survives n collisions with probability albedo^n.
         if (collisions_per_log_ > 0)
             group.survives[lane] =
@@ -403,6 +483,7 @@ private:
     BodyMedium medium_;
     Regions regions_;
     WalkSource& source_;
+    LargeSteps<kIsotropic> steps_;
     float mfp_;
     double collisions_per_log_;  // -1 / log(albedo)
     SplitMix64 random_;          // of what is rare: entries, the surface
@@ -436,6 +517,11 @@ namespace searchlight {
 
 HWY_EXPORT(walkBall);
 HWY_EXPORT(walkMesh);
+
+std::int32_t waysFor(std::uint64_t walks) {
+    // Beyond 4,096 what walks share is lost among what they do not; below 64 lanes would be idle.
+    return static_cast<std::int32_t>(std::bit_floor(std::clamp(walks / 16, std::uint64_t{64}, std::uint64_t{4096})));
+}
 
 std::vector<double> BodyChunk::pack() const {
     const auto number = [](std::uint64_t count) { return static_cast<double>(count); };

@@ -16,7 +16,11 @@ struct BodyMedium {
     double absorbed = 0;  ///< 1 - albedo
     double g = 0;
     double eta = 1;
+    std::int32_t ways = 0;  ///< through each ball of the large steps of a chunk, a power of two; 0: no large steps
 };
+
+/// How many ways are worth walking for a chunk of so many walks.
+std::int32_t waysFor(std::uint64_t walks);
 
 /// What the walks of one chunk did; flux in multiples of EntryOptions::whole.
 struct BodyChunk {

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <optional>
+#include <type_traits>
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "model/physics.h"
 #include "transport/mesh/body_walk.h"
+#include "transport/mesh/facet_beams.h"
+#include "transport/mesh/lit_walk.h"
 #include "transport/walk/chunks.h"
 
 namespace searchlight {
@@ -23,84 +25,11 @@ constexpr double kMostLost = 1e-4;  // of all walks, as in reference_body.cpp
 // Sums of a job; after the counts the values of each pixel, and their squares.
 enum Sum { lost, rays, pixels };
 
-// By inversion [HenyeyGreenstein1941].
-Vec3 scattered(Vec3 d, double g, SplitMix64& random) {
-    const double s = 2 * random.uniform() - 1, turn = 2 * std::numbers::pi * random.uniform();
-    const double q = (1 - g * g) / (1 + g * s), c = std::abs(g) < 1e-6 ? s : (1 + g * g - q * q) / (2 * g);
-    const double ring = std::sqrt(std::max(0.0, (1 - c) * (1 + c)));
-    // Frame of [Duff2017].
-    const double sign = std::copysign(1.0, d.z), k = -1 / (sign + d.z), xy = d.x * d.y * k;
-    const Vec3 tangent{1 + sign * d.x * d.x * k, sign * xy, -sign * d.x}, bitangent{xy, sign + d.y * d.y * k, -d.y};
-    return normalize(ring * std::cos(turn) * tangent + ring * std::sin(turn) * bitangent + c * d);
-}
-
-// At eta 1 light reaches a collision along straight lines: each asks for it. Only walks that pass unscattered collect
-// it where they leave.
-template <class Body>
-class MatchedWalker {
-public:
-    MatchedWalker(const Body& body, const BodyMedium& medium, const LightSampler& lights, int channel,
-                  CameraSource<Body>& source, SplitMix64 random)
-        : body_(body), medium_(medium), lights_(lights), channel_(channel), source_(source), random_(random) {}
-
-    BodyChunk run() {
-        for (Entry entry; source_.next(entry);) walk(entry);
-        return std::move(chunk_);
-    }
-
-private:
-    void walk(const Entry& entry) {
-        Vec3f position = entry.position;
-        Vec3 direction = toDouble(entry.direction);
-        double collected = 0;
-        for (bool scatters = false;; scatters = true) {
-            const double length = -std::log(random_.uniform()) / medium_.sigma_t;
-            const Vec3f end = toFloat(toDouble(position) + length * direction);
-            const Ray flight{position, {end.x - position.x, end.y - position.y, end.z - position.z}, 0, 1};
-            Crossing crossing;
-            body_.cross({&flight, 1}, {&crossing, 1});
-            ++chunk_.rays;
-            if (crossing.what == Crossing::What::lost) ++chunk_.lost;
-            if (crossing.what == Crossing::What::surface && !scatters)
-                source_.leave(entry.tag, entry.weight, direction, crossing, chunk_.cells);
-            if (crossing.what != Crossing::What::none) break;
-            ++chunk_.collisions;
-            if (random_.uniform() < medium_.absorbed) break;
-            position = end;
-            collected += lightAt(toDouble(position), direction);
-            direction = scattered(direction, medium_.g, random_);
-        }
-        if (collected > 0) chunk_.cells.push_back({entry.tag, static_cast<float>(collected) * entry.weight});
-    }
-
-    // In-scattered radiance, from one light and direction of all.
-    double lightAt(Vec3 position, Vec3 direction) {
-        const double u_light = random_.uniform(), u = random_.uniform(), v = random_.uniform();
-        const LightSample light = lights_.sample(position, u_light, u, v);
-        const double irradiance = light.irradiance_over_pdf[channel_];
-        if (irradiance == 0) return 0;
-        const std::optional<double> out = body_.wayOut(position, light.wi, light.distance);
-        ++chunk_.rays;
-        if (!out) return 0;
-        return irradiance * std::exp(-medium_.sigma_t * *out) *
-               Physics<double>::henyeyGreenstein(dot(direction, light.wi), medium_.g);
-    }
-
-    const Body& body_;
-    BodyMedium medium_;
-    const LightSampler& lights_;
-    int channel_;
-    CameraSource<Body>& source_;
-    SplitMix64 random_;
-    BodyChunk chunk_;
-};
-
-void checkLight(const Illumination& light, double eta) {
+// Whether light comes through a refractive surface from where no walk meets it.
+bool needsBeams(const Illumination& light, double eta) {
     if (std::holds_alternative<PencilLight>(light)) throw inputError("no camera sees light from a pencil beam");
     const auto* const lights = std::get_if<const LightSampler*>(&light);
-    if (lights && eta != 1 && (*lights)->singular())
-        throw inputError("through a refractive surface no walk meets light from a single direction or point",
-                         "give the sun a disc (--sun-angle 10), use an environment, or leave out --radiance");
+    return lights && eta != 1 && (*lights)->singular();
 }
 
 template <class Body>
@@ -133,19 +62,26 @@ template <class Body>
 BodyRadiance walkAny(const Body& body, const Medium& medium, int channel, const Illumination& light,
                      const CameraRays& camera, const RadianceOptions& options, Observer& observer) {
     checkMedium(medium);
-    checkLight(light, medium.eta);
+    const bool beams_wanted = needsBeams(light, medium.eta);
+    if (beams_wanted && std::is_same_v<Body, Ball>)
+        throw inputError("light from a single direction or point is not followed through a smooth refractive sphere",
+                         "reference mesh sphere, whose facets it is; or give the sun a disc (--sun-angle 10)");
     if (options.walks_per_pixel == 0) throw inputError("a reference needs at least one walk per pixel");
     if (!medium.scatters(channel)) throw inputError("the medium does not scatter in this channel");
     const double sigma_t = medium.sigmaT()[channel];
-    const BodyMedium walk{sigma_t, medium.sigma_a[channel] / sigma_t, medium.g[channel], medium.eta};
+    BodyMedium walk{sigma_t, medium.sigma_a[channel] / sigma_t, medium.g[channel], medium.eta};
     const auto* const lights = std::get_if<const LightSampler*>(&light);
 
     ChunkedWalk job;
     job.plan.walks = options.walks_per_pixel * camera.pixels();
     job.plan.size = std::clamp((job.plan.walks + kFewestChunks - 1) / kFewestChunks, std::uint64_t{1}, kLargestChunk);
     if (options.control.state && !options.control.state->empty()) job.plan.size = options.control.state->chunk_size;
+    if (options.large_steps) walk.ways = waysFor(job.plan.size);
     job.threads = options.threads;
     job.control = options.control;
+    std::optional<FacetBeams> beams;
+    if constexpr (std::is_same_v<Body, MeshBody>)
+        if (beams_wanted) beams.emplace(body, walk, **lights, channel);
     const ChunkedResult walked = walkChunks(
         job, {BatchRatios(pixels + 2 * camera.pixels())}, BodyChunk(),
         [&](std::uint64_t chunk, std::uint64_t count, BodyChunk& tally) {
@@ -153,7 +89,12 @@ BodyRadiance walkAny(const Body& body, const Medium& medium, int channel, const 
             CameraSource<Body> source(body, camera, light, channel, medium.eta, chunk * job.plan.size, count,
                                       SplitMix64(seeds.next()));
             const SplitMix64 random(seeds.next());
-            tally = lights && medium.eta == 1 ? MatchedWalker<Body>(body, walk, **lights, channel, source, random).run()
+            if constexpr (std::is_same_v<Body, MeshBody>)
+                if (beams) {
+                    tally = walkBeamsChunk(body, walk, *beams, source, random);
+                    return tally.collisions;
+                }
+            tally = lights && medium.eta == 1 ? walkMatchedChunk(body, walk, **lights, channel, source, random)
                                               : walkBodyChunk(body, walk, source, random);
             return tally.collisions;
         },
@@ -170,6 +111,7 @@ BodyRadiance walkAny(const Body& body, const Medium& medium, int channel, const 
         },
         observer);
     BodyRadiance result = resultOf<Body>(walked, camera);
+    if (beams) result.mirrored = beams->mirrored();
     result.threads = options.threads > 0 ? options.threads : hardwareThreads();
     if (static_cast<double>(result.lost) > kMostLost * static_cast<double>(result.walks) + 3)
         throw inputError(

@@ -130,7 +130,7 @@ BodyResult walkAny(const Body& body, const Medium& medium, int channel, const Il
     if (options.walks == 0) throw inputError("a reference needs at least one walk");
     if (!medium.scatters(channel)) throw inputError("the medium does not scatter in this channel");
     const double sigma_t = medium.sigmaT()[channel];
-    const BodyMedium walk{sigma_t, medium.sigma_a[channel] / sigma_t, medium.g[channel], medium.eta};
+    BodyMedium walk{sigma_t, medium.sigma_a[channel] / sigma_t, medium.g[channel], medium.eta};
     EntryOptions entry{channel, medium.eta};
     const Pilot pilot = pilotOf(body, light, entry, options.seed);
     entry.whole = pilot.whole;
@@ -141,6 +141,8 @@ BodyResult walkAny(const Body& body, const Medium& medium, int channel, const Il
     job.plan.walks = static_cast<std::uint64_t>(std::ceil(walks / pilot.arrivals));
     job.plan.size = static_cast<std::uint64_t>(std::ceil(static_cast<double>(job.plan.walks) / chunks));
     if (options.control.state && !options.control.state->empty()) job.plan.size = options.control.state->chunk_size;
+    if (options.large_steps)
+        walk.ways = waysFor(static_cast<std::uint64_t>(static_cast<double>(job.plan.size) * pilot.arrivals));
     job.threads = options.threads;
     if (const double error = options.control.until_error; error > 0)
         job.enough = [error](const std::vector<BatchRatios>& by, std::uint64_t n) {

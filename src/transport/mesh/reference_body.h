@@ -23,6 +23,7 @@ struct BodyOptions {
     std::uint64_t walks = 1'000'000;  ///< light paths that reach the surface, about: they are drawn
     std::uint64_t seed = 1;
     int threads = 0;            ///< 0: all
+    bool large_steps = true;    ///< false: each collision is walked, to check with
     gl::Context* gl = nullptr;  ///< walk there, in a ball; null: on the CPU
     WalkControl control;
 };

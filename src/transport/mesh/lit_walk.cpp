@@ -1,0 +1,158 @@
+#include "transport/mesh/lit_walk.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "model/physics.h"
+#include "transport/walk/fresnel.h"
+
+namespace searchlight {
+
+namespace {
+
+// By inversion [HenyeyGreenstein1941].
+Vec3 scattered(Vec3 d, double g, SplitMix64& random) {
+    const double s = 2 * random.uniform() - 1, turn = 2 * std::numbers::pi * random.uniform();
+    const double q = (1 - g * g) / (1 + g * s), c = std::abs(g) < 1e-6 ? s : (1 + g * g - q * q) / (2 * g);
+    const double ring = std::sqrt(std::max(0.0, (1 - c) * (1 + c)));
+    // Frame of [Duff2017].
+    const double sign = std::copysign(1.0, d.z), k = -1 / (sign + d.z), xy = d.x * d.y * k;
+    const Vec3 tangent{1 + sign * d.x * d.x * k, sign * xy, -sign * d.x}, bitangent{xy, sign + d.y * d.y * k, -d.y};
+    return normalize(ring * std::cos(turn) * tangent + ring * std::sin(turn) * bitangent + c * d);
+}
+
+// Radiance that a collision scatters towards where a walk came from.
+template <class Body>
+class MatchedLights {
+public:
+    MatchedLights(const Body& body, const BodyMedium& medium, const LightSampler& lights, int channel)
+        : body_(body), medium_(medium), lights_(lights), channel_(channel) {}
+
+    // From one light and direction of all.
+    double at(Vec3f place, Vec3 direction, SplitMix64& random, std::uint64_t& rays) const {
+        const Vec3 position = toDouble(place);
+        const double u_light = random.uniform(), u = random.uniform(), v = random.uniform();
+        const LightSample light = lights_.sample(position, u_light, u, v);
+        const double irradiance = light.irradiance_over_pdf[channel_];
+        if (irradiance == 0) return 0;
+        const std::optional<double> out = body_.wayOut(position, light.wi, light.distance);
+        ++rays;
+        if (!out) return 0;
+        return irradiance * std::exp(-medium_.sigma_t * *out) *
+               Physics<double>::henyeyGreenstein(dot(direction, light.wi), medium_.g);
+    }
+    bool collects(bool scatters) const { return !scatters; }
+
+private:
+    const Body& body_;
+    const BodyMedium& medium_;
+    const LightSampler& lights_;
+    int channel_;
+};
+
+class BeamLights {
+public:
+    explicit BeamLights(const FacetBeams& beams) : beams_(beams) {}
+
+    double at(Vec3f position, Vec3 direction, SplitMix64& random, std::uint64_t& rays) const {
+        return beams_.scattered(position, direction, random, rays);
+    }
+    bool collects(bool) const { return true; }
+
+private:
+    const FacetBeams& beams_;
+};
+
+// Whether a flight surely stays inside, so that no ray is asked.
+bool staysInside(const Ball&, Vec3f, Vec3f) { return false; }
+bool staysInside(const MeshBody& mesh, Vec3f from, Vec3f to) { return mesh.regions().safe(from, to); }
+
+template <class Body, class Lights>
+class LitWalker {
+public:
+    LitWalker(const Body& body, const BodyMedium& medium, const Lights& lights, CameraSource<Body>& source,
+              SplitMix64 random)
+        : body_(body), medium_(medium), lights_(lights), source_(source), random_(random) {}
+
+    BodyChunk run() {
+        for (Entry entry; source_.next(entry);) walk(entry);
+        return std::move(chunk_);
+    }
+
+private:
+    void walk(const Entry& entry) {
+        Vec3f position = entry.position;
+        Vec3 direction = toDouble(entry.direction);
+        double collected = 0;
+        for (bool scatters = false;;) {
+            const double length = -std::log(random_.uniform()) / medium_.sigma_t;
+            const Vec3f end = toFloat(toDouble(position) + length * direction);
+            const Crossing crossing = cross(position, end);
+            if (crossing.what == Crossing::What::lost) {
+                ++chunk_.lost;
+                break;
+            }
+            if (crossing.what == Crossing::What::surface) {
+                const double cosine = std::clamp(dot(direction, crossing.normal), 0.0, 1.0);
+                if (medium_.eta != 1 && random_.uniform() < internalReflectance(medium_.eta, cosine)) {
+                    position = crossing.inside;
+                    direction = normalize(direction - 2 * cosine * crossing.normal);
+                    continue;
+                }
+                if (lights_.collects(scatters))
+                    source_.leave(entry.tag, entry.weight, direction, crossing, chunk_.cells);
+                break;
+            }
+            ++chunk_.collisions;
+            if (random_.uniform() < medium_.absorbed) break;
+            position = end;
+            collected += lights_.at(position, direction, random_, chunk_.rays);
+            direction = scattered(direction, medium_.g, random_);
+            scatters = true;
+        }
+        if (collected > 0) chunk_.cells.push_back({entry.tag, static_cast<float>(collected) * entry.weight});
+    }
+
+    Crossing cross(Vec3f position, Vec3f end) {
+        Crossing crossing;
+        if (staysInside(body_, position, end)) return crossing;
+        const Ray flight{position, {end.x - position.x, end.y - position.y, end.z - position.z}, 0, 1};
+        body_.cross({&flight, 1}, {&crossing, 1});
+        ++chunk_.rays;
+        return crossing;
+    }
+
+    const Body& body_;
+    BodyMedium medium_;
+    Lights lights_;
+    CameraSource<Body>& source_;
+    SplitMix64 random_;
+    BodyChunk chunk_;
+};
+
+template <class Body>
+BodyChunk walkMatched(const Body& body, const BodyMedium& medium, const LightSampler& lights, int channel,
+                      CameraSource<Body>& source, SplitMix64 random) {
+    const MatchedLights<Body> asked(body, medium, lights, channel);
+    return LitWalker<Body, MatchedLights<Body>>(body, medium, asked, source, random).run();
+}
+
+}  // namespace
+
+BodyChunk walkMatchedChunk(const Ball& ball, const BodyMedium& medium, const LightSampler& lights, int channel,
+                           CameraSource<Ball>& source, SplitMix64 random) {
+    return walkMatched(ball, medium, lights, channel, source, random);
+}
+
+BodyChunk walkMatchedChunk(const MeshBody& mesh, const BodyMedium& medium, const LightSampler& lights, int channel,
+                           CameraSource<MeshBody>& source, SplitMix64 random) {
+    return walkMatched(mesh, medium, lights, channel, source, random);
+}
+
+BodyChunk walkBeamsChunk(const MeshBody& mesh, const BodyMedium& medium, const FacetBeams& beams,
+                         CameraSource<MeshBody>& source, SplitMix64 random) {
+    return LitWalker<MeshBody, BeamLights>(mesh, medium, BeamLights(beams), source, random).run();
+}
+
+}  // namespace searchlight
