@@ -339,6 +339,15 @@ struct Renderer::Impl {
         return picture;
     }
 
+    Image standardError() const {
+        if (technique->standardError().empty()) return {};
+        std::vector<Rgbf> errors;
+        Image errors_picture;
+        exitRadiance(visible, technique->standardError(), material.medium.eta, settings.threads, errors);
+        composite(visible, errors, {}, {}, settings.threads, errors_picture);
+        return errors_picture;
+    }
+
     void describe() {
         const bool has_points = wanted().light_at == LightPlace::points;
         report.points = !has_points ? 0 : points().positions.size();
@@ -389,6 +398,7 @@ const Image& Renderer::render(Observer& observer) {
 void Renderer::start(Observer& observer) { impl_->start(observer); }
 bool Renderer::step(Observer& observer) { return impl_->step(observer); }
 const Image& Renderer::image(Observer&) { return impl_->image(); }
+Image Renderer::standardError() const { return impl_->standardError(); }
 const RenderReport& Renderer::report() const { return impl_->report; }
 
 RenderStages Renderer::stages() const {

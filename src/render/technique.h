@@ -49,8 +49,9 @@ struct RenderInput {
 struct TechniqueReport {
     std::map<std::string, double> stage_ms;  ///< "tree", "sum"
     std::uint64_t interactions = 0;
-    double error_bound = 0;    ///< relative RMSE that is promised; 0: none
-    std::string approximates;  ///< one sentence: what it leaves out
+    double error_bound = 0;     ///< relative RMSE that is promised; 0: none
+    double standard_error = 0;  ///< relative, a RMS over the receivers, of noise that is measured; 0: there is none
+    std::string approximates;   ///< one sentence: what it leaves out
     std::string device;
 };
 
@@ -72,6 +73,9 @@ public:
     /// is T21(wo) M / (pi 4 C_phi(1/eta)). For a model that reads wo it is the sum of Q(wo) over the transmitted flux,
     /// wo being the direction to input.visible->eye.
     virtual std::span<const Rgbf> exitance() const = 0;
+
+    /// Standard error of exitance(), where a technique knows it from its own scatter; else empty.
+    virtual std::span<const Rgbf> standardError() const { return {}; }
 
     virtual TechniqueReport report() const = 0;
 };
