@@ -88,7 +88,7 @@ RenderSettings settingsOf(const Job& job, const Options& options) {
             settings.technique_options[param.name] = job.options.at(param.name);
         }
     settings.edge_samples = static_cast<int>(options.number("edge_samples"));
-    settings.light_samples = static_cast<int>(options.number("samples"));
+    settings.light_samples = static_cast<int>(options.number("light_samples"));
     settings.seed = job.seed;
     settings.threads = static_cast<int>(options.number("threads"));
     settings.gl = options.text("backend") == "gl";
@@ -129,6 +129,7 @@ Json renderJson(const RenderReport& report, const RenderSettings& settings, cons
     json["interactions"] = report.technique.interactions;
     for (const Param& param : entry.options) json[param.name] = valueJson(valueOf(param, settings.technique_options));
     json["error_bound"] = report.technique.error_bound > 0 ? Json(report.technique.error_bound) : Json();
+    if (report.technique.standard_error > 0) json["standard_error"] = report.technique.standard_error;
     json["camera"] = {{"azimuth_deg", report.camera.azimuth_deg},
                       {"elevation_deg", report.camera.elevation_deg},
                       {"distance", report.camera.distance}};
@@ -177,7 +178,7 @@ std::vector<Param> renderOptions() {
          .type = ParamType::text,
          .value = std::string("auto"),
          .doc = "points of irradiance on a mesh; auto: from its area and the material"},
-        {.name = "samples",
+        {.name = "light_samples",
          .type = ParamType::integer,
          .min = 1,
          .max = 1e7,
@@ -243,6 +244,8 @@ JobResult pictureOf(const Job& job, Engine& engine, KeptRenderer& kept, Observer
     const auto begin = std::chrono::steady_clock::now();
     ImageFile file;
     file.image = renderer.render(observer);
+    if (Image errors = renderer.standardError(); !errors.empty() && job.output.ends_with(".exr"))
+        file.layers.push_back({"stderr", std::move(errors)});
     const RenderReport& report = renderer.report();
     const ToneMap tone_map = toneMapOf(options, report.exposure);
 
@@ -283,6 +286,8 @@ JobResult pictureOf(const Job& job, Engine& engine, KeptRenderer& kept, Observer
     result.text += fmt::format("{} receivers", report.receivers);
     if (report.technique.error_bound > 0)
         result.text += fmt::format(", error at most {:.2g} %", 100 * report.technique.error_bound);
+    if (report.technique.standard_error > 0)
+        result.text += fmt::format(", standard error {:.2g} %", 100 * report.technique.standard_error);
     result.text += "\n";
     for (const StageTime& stage : times)
         if (stage.ms >= 0.05)

@@ -91,6 +91,10 @@ public:
     /// The picture so far. Requires start().
     const Image& image(Observer& observer);
 
+    /// The standard error of image() in every channel, alpha 1 where there is an object, for a technique that knows
+    /// it; else empty. Samples of a pixel count as if they erred together: no less than the error. Requires start().
+    Image standardError() const;
+
     const RenderReport& report() const;
 
     /// Requires start().

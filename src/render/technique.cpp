@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "model/sum_model.h"
 #include "render/brute_force.h"
+#include "render/direct.h"
 #include "render/hierarchical.h"
 #include "render/separable.h"
 
@@ -44,10 +45,16 @@ std::span<const TechniqueEntry> techniques() {
          .options = {normalBeamOption()},
          .directional = true,
          .make = makeBruteForce},
+        {.id = "direct",
+         .summary = "random points of the surface, drawn anew until the noise is gone: any model, no bias, error known",
+         .options = with(directOptions(), normalBeamOption()),
+         .directional = true,
+         .light_at = LightPlace::own,
+         .make = makeDirect},
         {.id = "separable",
          .summary = "a separable kernel blurs the light of the picture's pixels, as games do",
          .options = with(separableOptions(), normalBeamOption()),
-         .per_pixel = true,
+         .light_at = LightPlace::visible,
          .gl = true,
          .make = makeSeparable},
     };
