@@ -88,7 +88,7 @@ RenderSettings settingsOf(const Job& job, const Options& options) {
             settings.technique_options[param.name] = job.options.at(param.name);
         }
     settings.edge_samples = static_cast<int>(options.number("edge_samples"));
-    settings.light_samples = static_cast<int>(options.number("samples"));
+    settings.light_samples = static_cast<int>(options.number("light_samples"));
     settings.seed = job.seed;
     settings.threads = static_cast<int>(options.number("threads"));
     settings.gl = options.text("backend") == "gl";
@@ -177,7 +177,7 @@ std::vector<Param> renderOptions() {
          .type = ParamType::text,
          .value = std::string("auto"),
          .doc = "points of irradiance on a mesh; auto: from its area and the material"},
-        {.name = "samples",
+        {.name = "light_samples",
          .type = ParamType::integer,
          .min = 1,
          .max = 1e7,

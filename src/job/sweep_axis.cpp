@@ -200,7 +200,7 @@ Job jobOf(const CellText& cell) {
 int stageOf(const std::string& key) {
     for (const char* name : {"object", "scale", "scene", "points", "seed"})
         if (startsWith(key, name)) return 0;
-    if (startsWith(key, "lights") || key == "samples") return 1;
+    if (startsWith(key, "lights") || key == "light_samples") return 1;
     if (startsWith(key, "material")) return 2;
     return startsWith(key, "model") ? 3 : 4;
 }

@@ -155,7 +155,7 @@ struct Renderer::Impl {
     }
 
     void refreshPoints(Observer& observer) {
-        if (!object.isMesh() || wanted().per_pixel) return;
+        if (!object.isMesh() || wanted().light_at != LightPlace::points) return;
         PointOptions options{.count = settings.points, .seed = settings.seed, .threads = settings.threads};
         if (options.count == 0) options.count = defaultPointCount(area_mm2, material.medium);
         refresh(Stage::points, fmt::format("{} {} {}", runs(Stage::rays), options.count, options.seed), [&] {
@@ -166,21 +166,38 @@ struct Renderer::Impl {
         });
     }
 
+    IrradianceOptions lightOptions() const {
+        return {.eta = material.medium.eta,
+                .beams = !profile && !material.model.file.no_wi,
+                .light_samples = settings.light_samples,
+                .seed = settings.seed,
+                .threads = settings.threads};
+    }
+
+    std::string lightPlaces() {
+        switch (wanted().light_at) {
+            case LightPlace::points: return fmt::format("points {}", runs(Stage::points));
+            case LightPlace::visible: return fmt::format("seen {}", runs(Stage::visible));
+            case LightPlace::own: break;
+        }
+        return "own";
+    }
+
     void refreshIrradiance(Observer& observer) {
-        const IrradianceOptions options{.eta = material.medium.eta,
-                                        .beams = !profile && !material.model.file.no_wi,
-                                        .light_samples = settings.light_samples,
-                                        .seed = settings.seed,
-                                        .threads = settings.threads};
-        const bool per_pixel = wanted().per_pixel;
-        const std::string places =
-            per_pixel ? fmt::format("seen {}", runs(Stage::visible)) : fmt::format("points {}", runs(Stage::points));
+        const IrradianceOptions options = lightOptions();
+        const LightPlace light_at = wanted().light_at;
+        const std::string places = lightPlaces();
         const std::string key =
             fmt::format("{} {} {} {} {} {} {} {}", settings.gl, runs(Stage::rays), places, options.eta, options.beams,
                         options.light_samples, options.seed, keyOf(scene, &Scene::lights));
         const auto compute = [&] {
-            const SurfacePoints at = per_pixel ? SurfacePoints{visible.positions, visible.normals}
-                                               : SurfacePoints{points().positions, points().normals};
+            if (light_at == LightPlace::own) {
+                irradiance = {};
+                return;
+            }
+            const SurfacePoints at = light_at == LightPlace::visible
+                                         ? SurfacePoints{visible.positions, visible.normals}
+                                         : SurfacePoints{points().positions, points().normals};
             const std::string of = fmt::format("{} {} {}", settings.gl, runs(Stage::rays), places);
             if (lit_from != of) {
                 lit_from.clear();
@@ -192,7 +209,7 @@ struct Renderer::Impl {
             irradiance = settings.gl ? onGl().irradiance(at, lit_version, scene, object, *rays, options, observer)
                                      : computeIrradiance(lit, scene, object, &*rays, options, observer);
         };
-        refresh(Stage::irradiance, key, compute, settings.gl);
+        refresh(Stage::irradiance, key, compute, settings.gl && light_at != LightPlace::own);
     }
 
     void refreshVisible(Observer& observer) {
@@ -237,14 +254,15 @@ struct Renderer::Impl {
             const RenderInput input{.scene = &scene,
                                     .object = &object,
                                     .rays = &*rays,
-                                    .points = wanted.per_pixel ? nullptr : &points(),
-                                    .irradiance = &irradiance,
+                                    .points = wanted.light_at == LightPlace::points ? &points() : nullptr,
+                                    .irradiance = wanted.light_at == LightPlace::own ? nullptr : &irradiance,
                                     .visible = &visible,
                                     .view = &view,
                                     .model = &material.model,
                                     .evaluator = material.evaluator.get(),
                                     .medium = &material.medium,
                                     .profile = profile ? &*profile : nullptr,
+                                    .light = lightOptions(),
                                     .threads = settings.threads,
                                     .versions = {.points = runs(Stage::points) + runs(Stage::object),
                                                  .light = runs(Stage::irradiance),
@@ -322,10 +340,10 @@ struct Renderer::Impl {
     }
 
     void describe() {
-        const bool per_pixel = wanted().per_pixel;
-        report.points = per_pixel ? 0 : points().positions.size();
+        const bool has_points = wanted().light_at == LightPlace::points;
+        report.points = !has_points ? 0 : points().positions.size();
         report.receivers = visible.positions.size();
-        if (const std::string of = fmt::format("{} {}", runs(Stage::points), runs(Stage::object)); per_pixel) {
+        if (const std::string of = fmt::format("{} {}", runs(Stage::points), runs(Stage::object)); !has_points) {
             report.point_spacing_mm = 0;
             spacing_from.clear();
         } else if (spacing_from != of) {
@@ -338,7 +356,7 @@ struct Renderer::Impl {
             report.notes.emplace_back("At every angle the model stands with its profile under a normal beam.");
         if (std::string twice = countedTwice(material.model); !twice.empty()) report.notes.push_back(std::move(twice));
         const Medium& medium = material.medium;
-        if (object.isMesh() && settings.points == 0 && !per_pixel)
+        if (object.isMesh() && settings.points == 0 && has_points)
             if (const auto note = noteOfFewPoints(area_mm2, medium)) report.notes.push_back(*note);
         for (int c = 0; c < medium.channels; ++c) {
             if (!medium.scatters(c))

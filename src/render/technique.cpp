@@ -47,7 +47,7 @@ std::span<const TechniqueEntry> techniques() {
         {.id = "separable",
          .summary = "a separable kernel blurs the light of the picture's pixels, as games do",
          .options = with(separableOptions(), normalBeamOption()),
-         .per_pixel = true,
+         .light_at = LightPlace::visible,
          .gl = true,
          .make = makeSeparable},
     };

@@ -28,15 +28,17 @@ class Context;
 struct RenderInput {
     const Scene* scene = nullptr;
     const Object* object = nullptr;
-    const RayScene* rays = nullptr;           ///< of object->mesh
-    const PointCloud* points = nullptr;       ///< of irradiance; null where the technique is per_pixel
-    const Irradiance* irradiance = nullptr;   ///< at those points, or at the samples of visible
+    const RayScene* rays = nullptr;      ///< of object->mesh
+    const PointCloud* points = nullptr;  ///< of irradiance; null unless LightPlace::points
+    const Irradiance* irradiance =
+        nullptr;  ///< at those points, or at the samples of visible; null for LightPlace::own
     const VisibleSurface* visible = nullptr;  ///< receivers
     const View* view = nullptr;               ///< what they were seen with
     const Model* model = nullptr;
     Evaluator* evaluator = nullptr;  ///< set to the medium
     const Medium* medium = nullptr;
     const Profile* profile = nullptr;  ///< of a radial model, or of one that is taken for radial; null otherwise
+    IrradianceOptions light;           ///< with these computeIrradiance() gives the light at any points of the object
     int threads = 0;                   ///< 0: all
     struct Versions {
         std::uint64_t points = 0, light = 0, view = 0, material = 0;
@@ -74,14 +76,21 @@ public:
     virtual TechniqueReport report() const = 0;
 };
 
+/// Where a technique reads the light.
+enum class LightPlace {
+    points,   ///< at points that the renderer spreads over the object
+    visible,  ///< at the visible samples
+    own,      ///< where it asks for it itself, by RenderInput::light: the renderer makes neither points nor light
+};
+
 /// A row of the table: id and one line, options as Params, and how to make one.
 struct TechniqueEntry {
     std::string_view id;  ///< "hierarchical"
     std::string_view summary;
     std::vector<Param> options;
     bool directional = false;  ///< takes models that are not radial
-    bool per_pixel = false;    ///< reads the irradiance at what is seen: no points are made for it
-    bool gl = false;           ///< has a version on OpenGL, which make() gives for a context; null makes the CPU's
+    LightPlace light_at = LightPlace::points;
+    bool gl = false;  ///< has a version on OpenGL, which make() gives for a context; null makes the CPU's
     std::unique_ptr<Technique> (*make)(gl::Context* context);
 };
 

@@ -50,6 +50,11 @@ RenderSettings settingsOf(const PictureRequest& request, std::size_t points) {
     settings.seed = request.seed;
     settings.points_cache = pointCache();
     if (request.moving) settings.points = points;
+    // Pictures of the light need points of irradiance, which not every technique has.
+    if (request.layer != "picture" && findTechnique(request.technique).light_at != LightPlace::points) {
+        settings.technique = "brute_force";
+        settings.technique_options.clear();
+    }
     return settings;
 }
 
