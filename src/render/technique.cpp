@@ -7,6 +7,7 @@
 #include "render/brute_force.h"
 #include "render/hierarchical.h"
 #include "render/separable.h"
+#include "render/texture_space.h"
 
 namespace searchlight {
 
@@ -50,6 +51,12 @@ std::span<const TechniqueEntry> techniques() {
          .light_at = LightPlace::visible,
          .gl = true,
          .make = makeSeparable},
+        {.id = "texture-space",
+         .summary = "few samples of the light, drawn in an atlas of the surface, serve all receivers",
+         .options = with(textureSpaceOptions(), normalBeamOption()),
+         .directional = true,
+         .light_at = LightPlace::own,
+         .make = makeTextureSpace},
     };
     return entries;
 }

@@ -52,6 +52,8 @@ struct TechniqueReport {
     double error_bound = 0;    ///< relative RMSE that is promised; 0: none
     std::string approximates;  ///< one sentence: what it leaves out
     std::string device;
+    std::map<std::string, double> numbers;  ///< what else can be said of it, by names that the JSON output uses
+    std::vector<std::string> notes;         ///< what a user should know; known after start()
 };
 
 /// The parameters that the scene gives to the model, for another evaluator of it.

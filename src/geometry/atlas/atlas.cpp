@@ -17,8 +17,8 @@ namespace searchlight {
 
 namespace {
 
-// So many charts to begin with: a body has six sides.
-constexpr std::size_t first_charts = 6;
+// So many charts to begin with: a body has six sides. Two are the fewest that a closed one can have.
+constexpr std::size_t first_charts = 6, fewest_charts = 2;
 
 struct Laid {
     ChartFaces faces;
@@ -67,7 +67,7 @@ Laid lay(const SurfaceGraph& surface, ChartFaces faces, bool conformal) {
 std::vector<Laid> layAll(const SurfaceGraph& surface, const AtlasOptions& options, Observer& observer) {
     std::vector<std::uint32_t> all(surface.triangles.size());
     std::iota(all.begin(), all.end(), 0u);
-    std::vector<ChartFaces> open = growCharts(surface, all, first_charts);
+    std::vector<ChartFaces> open = growCharts(surface, all, options.conformal ? fewest_charts : first_charts);
     mergeSmallCharts(surface, open, 8);
     std::vector<Laid> done;
     while (!open.empty()) {

@@ -22,7 +22,7 @@ struct AtlasOptions {
     int resolution = 256;    ///< texels along a side
     int gutter = 1;          ///< texels between charts of a new atlas
     double stretch = 1.1;    ///< a chart with more L^2 stretch is cut in two
-    bool conformal = false;  ///< angles alone are kept, and charts are never cut for their stretch: what to avoid
+    bool conformal = false;  ///< few charts that keep angles alone, and are not cut for their stretch
     AtlasUvs uvs = AtlasUvs::automatic;
     int threads = 0;  ///< 0: all
 };

@@ -174,7 +174,7 @@ Packing packCharts(const std::vector<FlatChart>& charts, int resolution, int gut
     double area = 0;
     for (const std::size_t i : order) sorted.push_back(std::move(all[i])), area += sorted.back().area;
 
-    // A scale at which the charts would fill the square twice over, and less by steps of 3 %.
+    // From a scale at which the charts would fill the whole square down by steps of 3 %.
     double scale = resolution * std::sqrt(1 / std::max(area, 1e-300));
     std::optional<std::vector<Place>> places;
     constexpr double step = 0.97;
