@@ -87,7 +87,7 @@ public:
         report.numbers = {{"charts", static_cast<double>(atlas.charts)}, {"atlas_fill", atlas.fill},
                           {"texels", static_cast<double>(map_.size())},  {"stretch_l2", atlas.stretch.l2},
                           {"stretch_worst", atlas.stretch.worst},        {"area_distortion", atlas.stretch.area_rms},
-                          {"lit_area_mm2", samples_.lit_area_mm2}};
+                          {"largest_area", atlas.stretch.largest_area},  {"lit_area_mm2", samples_.lit_area_mm2}};
         if (!atlas.fault.empty())
             report.notes.push_back(
                 fmt::format("The object's uvs are not used, but an atlas made for it: {}.", atlas.fault));
@@ -122,7 +122,7 @@ private:
     }
 
     static std::string now(const RenderInput& input, const ParamValues& options) {
-        return fmt::format("{} {} {} {}", valueText(options.at("samples")), valueText(options.at("texel_light")),
+        return fmt::format("{} {} {} {}", valueText(options.at("samples")), valueText(options.at("own_light")),
                            input.light.beams, input.light.seed);
     }
 
@@ -131,7 +131,7 @@ private:
         drawn_from_.clear();
         samples_ = lit_->draw(input,
                               {.count = static_cast<std::size_t>(std::get<double>(options.at("samples"))),
-                               .texel_light = std::get<bool>(options.at("texel_light")),
+                               .own_light = std::get<bool>(options.at("own_light")),
                                .beams = input.light.beams,
                                .seed = input.light.seed},
                               observer);
@@ -198,38 +198,40 @@ private:
 }  // namespace
 
 std::vector<Param> textureSpaceOptions() {
-    return {{.name = "samples",
-             .type = ParamType::integer,
-             .min = 1,
-             .max = 1e6,
-             .value = 1600.0,
-             .doc = "of the light, drawn where it is bright"},
-            {.name = "atlas",
-             .type = ParamType::integer,
-             .min = 16,
-             .max = 4096,
-             .value = 256.0,
-             .doc = "texels along a side of the texture that the surface is spread out on"},
-            {.name = "uvs",
-             .type = ParamType::choice,
-             .value = std::string(uvs_words[0]),
-             .choices = {std::begin(uvs_words), std::end(uvs_words)},
-             .doc = "of the atlas: the object's where they are sound, always own charts, always the object's, or few "
-                    "charts that keep angles and not areas"},
-            {.name = "footprint",
-             .min = 0,
-             .max = 64,
-             .value = 1.0,
-             .doc = "R_d is averaged over a disc of so many times the area of a sample; 0: of a texel"},
-            {.name = "texel_light",
-             .type = ParamType::toggle,
-             .value = false,
-             .doc = "samples have the light of the middle of their texel instead of their own"},
-            {.name = "sum",
-             .type = ParamType::choice,
-             .value = std::string("tree"),
-             .choices = {"tree", "loop"},
-             .doc = "over the samples: by trees to 0.1 %, or one by one"}};
+    return {
+        {.name = "samples",
+         .type = ParamType::integer,
+         .min = 1,
+         .max = 1e6,
+         .value = 1600.0,
+         .doc = "of the light, drawn where it is bright"},
+        {.name = "atlas",
+         .type = ParamType::integer,
+         .min = 16,
+         .max = 4096,
+         .value = 256.0,
+         .doc = "texels along a side of the texture that the surface is spread out on"},
+        {.name = "uvs",
+         .type = ParamType::choice,
+         .value = std::string(uvs_words[0]),
+         .choices = {std::begin(uvs_words), std::end(uvs_words)},
+         .doc = "of the atlas: the object's where they are sound, always own charts, always the object's, or few "
+                "charts that keep angles and not areas"},
+        {.name = "footprint",
+         .min = 0,
+         .max = 64,
+         .value = 1.0,
+         .doc = "R_d is averaged over a disc of so many times the area of a sample; 0: of a texel"},
+        {.name = "own_light",
+         .type = ParamType::toggle,
+         .value = false,
+         .doc = "each sample has the light at its own place instead of that at the middle of its texel: no error of "
+                "texels is left, and more noise"},
+        {.name = "sum",
+         .type = ParamType::choice,
+         .value = std::string("tree"),
+         .choices = {"tree", "loop"},
+         .doc = "over the samples: by trees to 0.1 %, or one by one"}};
 }
 
 std::unique_ptr<Technique> makeTextureSpace(gl::Context*) { return std::make_unique<TextureSpace>(); }

@@ -9,7 +9,7 @@
 
 namespace searchlight {
 
-/// "samples", "atlas", "uvs", "footprint", "texel_light", "sum".
+/// "samples", "atlas", "uvs", "footprint", "own_light", "sum".
 std::vector<Param> textureSpaceOptions();
 
 /// CPU.

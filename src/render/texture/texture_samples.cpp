@@ -44,8 +44,7 @@ TextureSamples LitAtlas::draw(const RenderInput& input, const TextureSampleOptio
         samples.dark = true;
         return samples;
     }
-    const bool of_texels = options.texel_light && !options.beams;
-    const double flat = of_texels ? 0 : by_area;
+    const double flat = options.own_light ? by_area : 0;
     std::vector<double> weights(map_.size());
     for (std::size_t i = 0; i < weights.size(); ++i)
         weights[i] = map_.cells.areas[i] * ((1 - flat) * brightness(transmitted_[i]) / power_ + flat / area_mm2_);
@@ -62,14 +61,20 @@ TextureSamples LitAtlas::draw(const RenderInput& input, const TextureSampleOptio
         samples.points.areas.push_back(static_cast<float>(map_.cells.areas[choice.cell] /
                                                           (static_cast<double>(options.count) * choice.probability)));
     }
-    if (of_texels) {
+    if (!options.own_light && !options.beams) {
         for (const std::uint32_t cell : cells) samples.irradiance.transmitted.push_back(transmitted_[cell]);
         return samples;
     }
+    PointCloud middles;
+    for (const std::uint32_t cell : cells) {
+        middles.positions.push_back(map_.cells.positions[cell]);
+        middles.normals.push_back(map_.cells.normals[cell]);
+    }
+    const PointCloud& lit = options.own_light ? samples.points : middles;
     IrradianceOptions light = input.light;
     light.beams = options.beams;
-    samples.irradiance = computeIrradiance({samples.points.positions, samples.points.normals}, *input.scene,
-                                           *input.object, input.rays, light, observer);
+    samples.irradiance =
+        computeIrradiance({lit.positions, lit.normals}, *input.scene, *input.object, input.rays, light, observer);
     return samples;
 }
 

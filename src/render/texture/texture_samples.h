@@ -12,8 +12,8 @@ namespace searchlight {
 
 struct TextureSampleOptions {
     std::size_t count = 1600;
-    bool texel_light = false;  ///< light of the texels instead of light at the samples; not as beams
-    bool beams = false;        ///< also as beams, always at the samples
+    bool own_light = false;  ///< light at each sample, not that of its texel's middle
+    bool beams = false;      ///< also as beams
     std::uint64_t seed = 1;
 };
 
@@ -35,9 +35,9 @@ public:
     /// Takes the light anew.
     void light(const RenderInput& input, Observer& observer);
 
-    /// Cells are chosen in proportion to area times transmitted light, the mean of the channels; one sample in ten,
-    /// where the light is read at the samples, by area alone, so that nothing lit is missed that its texel's middle did
-    /// not see.
+    /// Cells are chosen in proportion to area times transmitted light, the mean of the channels. Where the light is
+    /// read at the samples one in ten is chosen by area alone, so that nothing lit is missed that is dark at the middle
+    /// of its texel.
     TextureSamples draw(const RenderInput& input, const TextureSampleOptions& options, Observer& observer) const;
 
     std::span<const Rgbf> transmitted() const { return transmitted_; }  ///< per cell
