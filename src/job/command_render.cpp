@@ -128,6 +128,7 @@ Json renderJson(const RenderReport& report, const RenderSettings& settings, cons
     json["receivers"] = report.receivers;
     json["interactions"] = report.technique.interactions;
     for (const Param& param : entry.options) json[param.name] = valueJson(valueOf(param, settings.technique_options));
+    for (const auto& [name, value] : report.technique.numbers) json[name] = value;
     json["error_bound"] = report.technique.error_bound > 0 ? Json(report.technique.error_bound) : Json();
     if (report.technique.standard_error > 0) json["standard_error"] = report.technique.standard_error;
     json["camera"] = {{"azimuth_deg", report.camera.azimuth_deg},

@@ -141,7 +141,7 @@ void sumExitance(const PointTree& points, const RadialTable& table, const Receiv
     SumMemory::Impl& memory = (options.memory ? *options.memory : unkept_memory).impl();
     SumStatistics found;
     Sum sum(input, memory, options.observer, found);
-    if (points.size() <= few_points || receivers.size() == 0) {
+    if (points.size() <= few_points || options.one_by_one || receivers.size() == 0) {
         sum.take({});
     } else {
         const std::uint64_t key = keyOf(input);

@@ -106,7 +106,8 @@ struct SumOptions {
     /// Relative RMSE over the receivers, against the full sum: the root of the mean squared error over that of the mean
     /// squared exitance, in every channel. From 1e-4 to 0.5; others are moved there.
     double error = 0.005;
-    int threads = 0;                        ///< 0: all
+    bool one_by_one = false;  ///< every receiver takes every point: time is their product, error is rounding
+    int threads = 0;          ///< 0: all
     SumCalibration* calibration = nullptr;  ///< read and written where given
     SumMemory* memory = nullptr;            ///< used where given, by one sum at a time
     Observer* observer = nullptr;           ///< asked some hundred times a sum whether to stop: interruptedError()

@@ -361,6 +361,7 @@ struct Renderer::Impl {
             spacing_from = of;
         }
         report.notes = object.notes;
+        for (std::string& note : technique->report().notes) report.notes.push_back(std::move(note));
         if (profile && !isRadial(material.model))
             report.notes.emplace_back("At every angle the model stands with its profile under a normal beam.");
         if (std::string twice = countedTwice(material.model); !twice.empty()) report.notes.push_back(std::move(twice));

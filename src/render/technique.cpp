@@ -8,6 +8,7 @@
 #include "render/direct.h"
 #include "render/hierarchical.h"
 #include "render/separable.h"
+#include "render/texture_space.h"
 
 namespace searchlight {
 
@@ -57,6 +58,12 @@ std::span<const TechniqueEntry> techniques() {
          .light_at = LightPlace::visible,
          .gl = true,
          .make = makeSeparable},
+        {.id = "texture-space",
+         .summary = "few samples of the light, drawn in an atlas of the surface, serve all receivers",
+         .options = with(textureSpaceOptions(), normalBeamOption()),
+         .directional = true,
+         .light_at = LightPlace::own,
+         .make = makeTextureSpace},
     };
     return entries;
 }

@@ -53,6 +53,8 @@ struct TechniqueReport {
     double standard_error = 0;  ///< relative, a RMS over the receivers, of noise that is measured; 0: there is none
     std::string approximates;   ///< one sentence: what it leaves out
     std::string device;
+    std::map<std::string, double> numbers;  ///< what else can be said of it, by names that the JSON output uses
+    std::vector<std::string> notes;         ///< what a user should know; known after start()
 };
 
 /// The parameters that the scene gives to the model, for another evaluator of it.

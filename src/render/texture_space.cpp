@@ -1,0 +1,239 @@
+#include "render/texture_space.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <chrono>
+#include <numeric>
+#include <optional>
+
+#include "render/directional_hierarchy.h"
+#include "render/exitance_sum.h"
+#include "render/texture/texture_samples.h"
+
+namespace searchlight {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double milliseconds(Clock::time_point since) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - since).count();
+}
+
+// Of the sums over samples by trees: small beside what the samples leave.
+constexpr double tree_error = 0.001;
+
+constexpr const char* uvs_words[] = {"automatic", "own", "file", "conformal"};
+
+AtlasOptions atlasOptions(const ParamValues& options, int threads) {
+    const std::string& uvs = std::get<std::string>(options.at("uvs"));
+    return {.resolution = static_cast<int>(std::get<double>(options.at("atlas"))),
+            .conformal = uvs == "conformal",
+            .uvs = uvs == "automatic" ? AtlasUvs::automatic
+                   : uvs == "file"    ? AtlasUvs::file
+                                      : AtlasUvs::own,
+            .threads = threads};
+}
+
+class TextureSpace final : public Technique {
+public:
+    void start(const RenderInput& input, const ParamValues& options, Observer& observer) override {
+        stage_ms_.clear();
+        const bool surface = refreshAtlas(input, options, observer);
+        const bool new_light = refreshLight(input, surface, observer);
+        if (new_light || now(input, options) != drawn_from_) draw(input, options, observer);
+        const bool view = seen_.view != input.versions.view || !receivers_;
+        input_ = input;
+        seen_ = input.versions;
+        exitance_.assign(input.visible->positions.size(), {});
+        if (samples_.dark) return;
+        if (input.profile)
+            prepareRadial(options, view);
+        else
+            prepareDirectional(observer);
+    }
+
+    bool step(Observer& observer) override {
+        if (samples_.dark) return true;
+        if (!input_.profile) {
+            const bool done = directional_->step(observer);
+            std::ranges::copy(directional_->exitance(), exitance_.begin());
+            return done;
+        }
+        const auto begin = Clock::now();
+        sum_options_.observer = &observer;
+        sumExitance(*points_, *table_, *receivers_, sum_options_, exitance_, &statistics_);
+        stage_ms_["sum"] += milliseconds(begin);
+        return true;
+    }
+
+    std::span<const Rgbf> exitance() const override { return exitance_; }
+
+    TechniqueReport report() const override {
+        TechniqueReport report{
+            .stage_ms = stage_ms_,
+            .interactions = statistics_.interactions + statistics_.expansions,
+            .approximates = "the light of the whole surface stands in samples that all receivers share",
+            .device = "cpu"};
+        if (directional_ && !samples_.dark && !input_.profile) {
+            const TechniqueReport sum = directional_->report();
+            for (const auto& [name, ms] : sum.stage_ms) report.stage_ms[name] += ms;
+            report.interactions = sum.interactions;
+            report.device = sum.device;
+        }
+        const AtlasReport& atlas = atlas_.report;
+        report.numbers = {{"charts", static_cast<double>(atlas.charts)}, {"atlas_fill", atlas.fill},
+                          {"texels", static_cast<double>(map_.size())},  {"stretch_l2", atlas.stretch.l2},
+                          {"stretch_worst", atlas.stretch.worst},        {"area_distortion", atlas.stretch.area_rms},
+                          {"largest_area", atlas.stretch.largest_area},  {"lit_area_mm2", samples_.lit_area_mm2}};
+        if (!atlas.fault.empty())
+            report.notes.push_back(
+                fmt::format("The object's uvs are not used, but an atlas made for it: {}.", atlas.fault));
+        return report;
+    }
+
+private:
+    // True when the atlas is new.
+    bool refreshAtlas(const RenderInput& input, const ParamValues& options, Observer& observer) {
+        const std::string key = fmt::format("{} {} {}", input.versions.points, valueText(options.at("atlas")),
+                                            valueText(options.at("uvs")));
+        if (key == atlas_from_) return false;
+        const auto begin = Clock::now();
+        atlas_from_.clear();
+        lit_.reset();
+        atlas_ = makeAtlas(input.object->mesh, atlasOptions(options, input.threads), observer);
+        map_ = mapTexels(input.object->mesh, atlas_);
+        atlas_from_ = key;
+        stage_ms_["atlas"] = milliseconds(begin);
+        return true;
+    }
+
+    bool refreshLight(const RenderInput& input, bool surface, Observer& observer) {
+        if (!surface && lit_ && seen_.light == input.versions.light) return false;
+        const auto begin = Clock::now();
+        if (lit_)
+            lit_->light(input, observer);
+        else
+            lit_.emplace(atlas_, map_, input, observer);
+        stage_ms_["light"] = milliseconds(begin);
+        return true;
+    }
+
+    static std::string now(const RenderInput& input, const ParamValues& options) {
+        return fmt::format("{} {} {} {}", valueText(options.at("samples")), valueText(options.at("own_light")),
+                           input.light.beams, input.light.seed);
+    }
+
+    void draw(const RenderInput& input, const ParamValues& options, Observer& observer) {
+        const auto begin = Clock::now();
+        drawn_from_.clear();
+        samples_ = lit_->draw(input,
+                              {.count = static_cast<std::size_t>(std::get<double>(options.at("samples"))),
+                               .own_light = std::get<bool>(options.at("own_light")),
+                               .beams = input.light.beams,
+                               .seed = input.light.seed},
+                              observer);
+        ++draws_;
+        drawn_from_ = now(input, options);
+        points_.reset();
+        stage_ms_["draw"] = milliseconds(begin);
+    }
+
+    void prepareRadial(const ParamValues& options, bool view) {
+        const auto begin = Clock::now();
+        if (!points_) {
+            points_.emplace(samples_.points, input_.threads);
+            points_->setTransmitted(samples_.irradiance.transmitted, input_.threads);
+        }
+        const double texel =
+            std::accumulate(map_.cells.areas.begin(), map_.cells.areas.end(), 0.0) / static_cast<double>(map_.size());
+        const double sample = samples_.lit_area_mm2 / static_cast<double>(samples_.points.positions.size());
+        const double cell = std::max(texel, std::get<double>(options.at("footprint")) * sample);
+        const std::string table = fmt::format("{} {}", input_.versions.material, cell);
+        if (table != table_from_) table_.emplace(*input_.profile, cell);
+        table_from_ = table;
+        if (view) receivers_.emplace(input_.visible->positions, input_.threads);
+        const bool loop = std::get<std::string>(options.at("sum")) == "loop";
+        sum_options_ = {.error = tree_error,
+                        .one_by_one = loop,
+                        .threads = input_.threads,
+                        .calibration = &calibration_,
+                        .memory = &memory_};
+        stage_ms_["tree"] = milliseconds(begin);
+    }
+
+    void prepareDirectional(Observer& observer) {
+        if (!directional_) directional_ = makeDirectionalHierarchy();
+        RenderInput inner = input_;
+        inner.points = &samples_.points;
+        inner.irradiance = &samples_.irradiance;
+        inner.versions.points = inner.versions.light = draws_;
+        directional_->start(inner, {{"error", 5 * tree_error}}, observer);
+    }
+
+    Atlas atlas_;
+    TexelMap map_;
+    std::string atlas_from_, drawn_from_, table_from_;
+    std::optional<LitAtlas> lit_;
+    TextureSamples samples_;
+    std::uint64_t draws_ = 0;
+
+    std::optional<PointTree> points_;
+    std::optional<ReceiverTree> receivers_;
+    std::optional<RadialTable> table_;
+    SumOptions sum_options_;
+    SumCalibration calibration_;
+    SumMemory memory_;
+    SumStatistics statistics_;
+    std::unique_ptr<Technique> directional_;
+
+    RenderInput input_;
+    RenderInput::Versions seen_;
+    std::map<std::string, double> stage_ms_;
+    std::vector<Rgbf> exitance_;
+};
+
+}  // namespace
+
+std::vector<Param> textureSpaceOptions() {
+    return {
+        {.name = "samples",
+         .type = ParamType::integer,
+         .min = 1,
+         .max = 1e6,
+         .value = 1600.0,
+         .doc = "of the light, drawn where it is bright"},
+        {.name = "atlas",
+         .type = ParamType::integer,
+         .min = 16,
+         .max = 4096,
+         .value = 256.0,
+         .doc = "texels along a side of the texture that the surface is spread out on"},
+        {.name = "uvs",
+         .type = ParamType::choice,
+         .value = std::string(uvs_words[0]),
+         .choices = {std::begin(uvs_words), std::end(uvs_words)},
+         .doc = "of the atlas: the object's where they are sound, always own charts, always the object's, or few "
+                "charts that keep angles and not areas"},
+        {.name = "footprint",
+         .min = 0,
+         .max = 64,
+         .value = 1.0,
+         .doc = "R_d is averaged over a disc of so many times the area of a sample; 0: of a texel"},
+        {.name = "own_light",
+         .type = ParamType::toggle,
+         .value = false,
+         .doc = "each sample has the light at its own place instead of that at the middle of its texel: no error of "
+                "texels is left, and more noise"},
+        {.name = "sum",
+         .type = ParamType::choice,
+         .value = std::string("tree"),
+         .choices = {"tree", "loop"},
+         .doc = "over the samples: by trees to 0.1 %, or one by one"}};
+}
+
+std::unique_ptr<Technique> makeTextureSpace(gl::Context*) { return std::make_unique<TextureSpace>(); }
+
+}  // namespace searchlight

@@ -1,0 +1,18 @@
+// Texture space importance sampling [Chang2007]: samples of the light are drawn in a texture of the surface and shared
+// by all receivers. docs/texture-space.md says what is promised.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "render/technique.h"
+
+namespace searchlight {
+
+/// "samples", "atlas", "uvs", "footprint", "own_light", "sum".
+std::vector<Param> textureSpaceOptions();
+
+/// CPU.
+std::unique_ptr<Technique> makeTextureSpace(gl::Context* context);
+
+}  // namespace searchlight
