@@ -26,7 +26,7 @@ namespace searchlight::gui {
 namespace {
 
 constexpr const char* kLane = "kernels";
-constexpr int kTableWidth = 364, kSlidersWidth = 288;
+constexpr int kTableWidth = 364, kSlidersWidth = 312;
 // Of what is looked at, beside the table; of two figures beside each other.
 constexpr int kStageWidth = 600, kFiguresWidth = 480;
 
