@@ -7,8 +7,10 @@
 #include <QTimer>
 #include <cstdio>
 
+#include "base/error.h"
 #include "base/version.h"
 #include "gui/state/recovery.h"
+#include "gui/window/docks.h"
 #include "gui/window/main_window.h"
 #include "gui/window/theme.h"
 #include "gui/window/tracer.h"
@@ -20,6 +22,19 @@ using namespace searchlight::gui;
 Theme::Mode modeOf(const QString& text) {
     if (text == "light") return Theme::Mode::light;
     return text == "system" ? Theme::Mode::system : Theme::Mode::dark;
+}
+
+QStringList dockIds() {
+    QStringList ids;
+    for (const DockEntry& entry : docks()) ids << entry.id;
+    return ids;
+}
+
+QSize sizeOf(const QString& text) {
+    const QStringList sides = text.split('x');
+    const QSize size = sides.size() == 2 ? QSize(sides[0].toInt(), sides[1].toInt()) : QSize();
+    if (size.isEmpty()) throw searchlight::inputError(("no size: " + text).toStdString(), "WIDTHxHEIGHT, as 1440x900");
+    return size;
 }
 
 void say(const QString& text) { std::fputs(text.toUtf8().constData(), stdout); }
@@ -48,8 +63,21 @@ int main(int argc, char** argv) {
     const QCommandLineOption size_option("size", "of the window: WIDTHxHEIGHT, and the layout of the first start",
                                          "size");
     const QCommandLineOption fresh("fresh", "as at the first start: no remembered layout, nothing to recover");
-    parser.addOptions({trace, screenshot, quit_after, theme_option, size_option, fresh});
+    const QCommandLineOption show("show", "bring a dock to the front: " + dockIds().join(", ") + "; may be repeated",
+                                  "dock");
+    parser.addOptions({trace, screenshot, quit_after, theme_option, size_option, show, fresh});
     parser.process(application);
+    QSize size;
+    try {
+        if (parser.isSet(size_option)) size = sizeOf(parser.value(size_option));
+        for (const QString& id : parser.values(show))
+            if (!dockIds().contains(id))
+                throw searchlight::inputError(("there is no dock " + id).toStdString(),
+                                              dockIds().join(", ").toStdString());
+    } catch (const searchlight::Error& error) {
+        std::fprintf(stderr, "searchlight-gui: %s\n", error.what());
+        return 2;
+    }
 
     // A run that measures or draws must not depend on what somebody did before.
     const bool remembered = !parser.isSet(fresh) && !parser.isSet(trace) && !parser.isSet(screenshot);
@@ -67,12 +95,8 @@ int main(int argc, char** argv) {
         modeOf(parser.isSet(theme_option) ? parser.value(theme_option) : MainWindow::rememberedTheme(settings)));
     Recovery recovery(workspace, remembered ? Recovery::userFolder() : QString());
 
-    MainWindow window(desk, settings);
+    MainWindow window(desk, settings, size);
     Tracer tracer(desk, &window, started);
-    if (parser.isSet(size_option)) {
-        const QStringList sides = parser.value(size_option).split('x');
-        if (sides.size() == 2) window.resize(sides[0].toInt(), sides[1].toInt());
-    }
     if (const auto left = recovery.take()) {
         workspace.open(*left, {});
         notices.post(Notices::Level::info,
@@ -81,6 +105,7 @@ int main(int argc, char** argv) {
     // Before it is shown: no picture is begun that nobody wants.
     window.openPaths(parser.positionalArguments());
     window.show();
+    for (const QString& id : parser.values(show)) window.showDock(id);
 
     if (parser.isSet(trace)) tracer.exercise();
     const auto finish = [&] {

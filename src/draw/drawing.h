@@ -62,9 +62,16 @@ struct Picture {
 
 using Shape = std::variant<Polyline, Polygon, Box, Circle, Text, Picture>;
 
+/// Where the data of a panel stand, and their ranges.
+struct PanelFrame {
+    Rect rect;
+    double x_min = 0, x_max = 1, y_min = 0, y_max = 1;
+};
+
 struct Drawing {
     double width = 0, height = 0;
-    std::vector<Shape> shapes;  ///< later ones lie above
+    std::vector<Shape> shapes;       ///< later ones lie above
+    std::vector<PanelFrame> frames;  ///< of a figure with panels or a map, in their order; without a hemisphere's
 };
 
 }  // namespace searchlight

@@ -89,6 +89,9 @@ public:
                 const Rect frame{std::round(x) + 0.5, std::round(y + above) + 0.5, std::round(x) + side + 0.5,
                                  std::round(y + above + height) + 0.5};
                 if (i == 0) first = frame;
+                const FigureRange& range = ranges_[i];
+                if (hasAxes(*panels_[i]))
+                    drawing.frames.push_back({frame, range.x_min, range.x_max, range.y_min, range.y_max});
                 drawPanel(shapes, i, frame);
                 x += side;
             }

@@ -1,6 +1,8 @@
 // A person without a plan: seeded clicks, drags, keys, drops and edits on the real window.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <QAbstractButton>
 #include <QApplication>
 #include <QDockWidget>
@@ -14,6 +16,7 @@
 #include <QTest>
 #include <QTimer>
 #include <QUrl>
+#include <cstdio>
 #include <ctime>
 #include <random>
 
@@ -163,5 +166,24 @@ private:
     QStringList paths_;
     QTimer closer_;
 };
+
+/// So many actions on a window of its own; what has to hold afterwards.
+inline void survives(Desk& desk, int actions) {
+    {
+        MainWindow window(desk);
+        window.resize(1100, 700);
+        window.show();
+        RandomUser user(window, desk, 20260101);
+        for (int i = 0; i < actions; ++i) user.act();
+        testing::Test::RecordProperty("longest_ms", std::to_string(user.longest_ms));
+        testing::Test::RecordProperty("blocked", user.blocked);
+        std::printf("events took more than 100 ms %d times, longest %.0f ms\n", user.blocked, user.longest_ms);
+        const State& state = desk.workspace.state();
+        EXPECT_FALSE(state.models.empty());
+        EXPECT_NO_THROW(parseWorkspace(workspaceJson(state), "after.json"));
+    }
+    // The window is gone while engines still work; they end, and nothing is delivered to what is no more.
+    QTest::qWait(20);
+}
 
 }  // namespace searchlight::gui

@@ -1,10 +1,12 @@
 // The object view, materials and lights, driven as a person does. User models are compiled by OpenGL.
+#include <QAction>
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDockWidget>
 #include <QLabel>
 #include <QLineEdit>
 #include <QListWidget>
+#include <QProgressBar>
 #include <QTemporaryDir>
 #include <QToolButton>
 
@@ -89,6 +91,36 @@ TEST_F(MainTest, ModelsAndTheReferenceAreCompared) {
             << against;
         EXPECT_EQ(shown().difference.size(), shown().a.size());
     }
+}
+
+// Some seconds on one core: it has to be seen while it is made, and to end when a person has seen enough.
+TEST_F(MainTest, ASlowTechniqueIsShownAsItGrowsAndCancelled) {
+    ASSERT_TRUE(settled());
+    std::vector<QImage> seen;
+    QObject::connect(&window->view().pictures(), &PictureService::pictureShown, [&] {
+        if (shown().partly && !shown().b.isNull()) seen.push_back(shown().b);
+    });
+    workspace.edit(QStringLiteral("compare"), {}, [&](State& state) {
+        state.scene.object = "statue";
+        state.options["view"]["compare"] = std::string("wipe");
+        state.options["view"]["against"] = std::string("technique brute_force");
+    });
+    auto* bar = find<QProgressBar>(window.get(), "task.bar");
+    auto* cancel = find<QToolButton>(window.get(), "task.cancel");
+    const auto own = [&] { return tasks.busy("picture", "picture") && bar->isVisible() && bar->maximum() > 0; };
+    ASSERT_TRUE(waitUntil([&] { return seen.size() >= 3 && own(); }, 60'000));
+    EXPECT_NE(seen[1], seen[2]);
+    EXPECT_GT(bar->value(), 0);
+    // Whichever task stands longest is offered first.
+    EXPECT_TRUE(waitUntil([&] {
+        if (cancel->isVisible()) cancel->click();
+        return !tasks.busy("picture", "picture");
+    }));
+    EXPECT_FALSE(shown().a.isNull()) << "what was seen stays";
+    EXPECT_TRUE(waitUntil([&] { return !cancel->isVisible(); }, 60'000));
+    // And the next change begins anew.
+    workspace.setOption(QStringLiteral("compare"), "view", "compare", std::string("none"));
+    EXPECT_TRUE(settled());
 }
 
 TEST_F(MainTest, LayersShowTheLightThatArrives) {
@@ -205,7 +237,7 @@ TEST_F(MainTest, EveryDockHasANameAndAShortcut) {
         QDockWidget* dock = window->dock(entry.id);
         ASSERT_TRUE(dock) << entry.id;
         EXPECT_FALSE(dock->accessibleName().isEmpty());
-        EXPECT_FALSE(dock->toggleViewAction()->shortcut().isEmpty());
+        EXPECT_FALSE(find<QAction>(window.get(), (std::string("show.") + entry.id).c_str())->shortcut().isEmpty());
         dock->setFloating(true);
         EXPECT_TRUE(dock->isFloating());
         dock->setFloating(false);

@@ -1,23 +1,16 @@
 #include "gui/kernel/kernel_dock.h"
 
-#include <QApplication>
-#include <QClipboard>
 #include <QComboBox>
-#include <QDockWidget>
-#include <QFileDialog>
 #include <QHBoxLayout>
 #include <QLabel>
-#include <QMenu>
 #include <QScrollArea>
 #include <QStackedWidget>
-#include <QToolButton>
 #include <QVBoxLayout>
 #include <array>
-#include <functional>
 #include <memory>
 #include <optional>
 
-#include "base/files.h"
+#include "gui/kernel/export_button.h"
 #include "gui/kernel/kernel_options.h"
 #include "gui/kernel/live_kernels.h"
 #include "gui/kernel/manual_panel.h"
@@ -25,38 +18,26 @@
 #include "gui/kernel/picture_row.h"
 #include "gui/plot/figure_view.h"
 #include "gui/plot/option_bar.h"
+#include "gui/window/seen.h"
 #include "gui/window/theme.h"
-#include "job/kernel_export.h"
 
 namespace searchlight::gui {
 
 namespace {
 
 constexpr const char* kLane = "kernels";
-// From here on the table stands beside what is looked at.
-constexpr int kWide = 860, kTableWidth = 352, kSlidersWidth = 288;
+constexpr int kTableWidth = 364, kSlidersWidth = 312;
+// Of what is looked at, beside the table; of two figures beside each other.
+constexpr int kStageWidth = 600, kFiguresWidth = 480;
 
 struct LaneKernels {
     std::optional<LiveKernels> kernels;
 };
 
-QString formatTitle(const std::string& name) {
-    if (name == "json" || name == "c" || name == "hlsl" || name == "glsl")
-        return QString::fromStdString(name).toUpper();
-    return name == "unity"    ? QStringLiteral("Unity HDRP profile")
-           : name == "unreal" ? QStringLiteral("Unreal profile")
-                              : QStringLiteral("Godot");
-}
-
-QString fileEnding(const std::string& name) {
-    if (name == "unreal" || name == "unity") return QStringLiteral("txt");
-    if (name == "godot") return QStringLiteral("gdshaderinc");
-    return name == "c" ? QStringLiteral("h") : QString::fromStdString(name);
-}
-
 class KernelDock : public QWidget {
 public:
-    explicit KernelDock(Desk& desk) : desk_(desk), lane_(std::make_shared<LaneKernels>()) {
+    explicit KernelDock(Desk& desk) : desk_(desk), lane_(std::make_shared<LaneKernels>()), seen_(new Seen(this)) {
+        connect(seen_, &Seen::changed, this, &KernelDock::setSeen);
         auto* layout = new QVBoxLayout(this);
         layout->setContentsMargins(0, 0, 0, 0);
         layout->setSpacing(0);
@@ -103,18 +84,6 @@ protected:
         QWidget::resizeEvent(event);
         arrange();
     }
-    // Walks cost both cores: none for what nobody sees. A dock behind another tab counts as visible for its widgets.
-    void showEvent(QShowEvent* event) override {
-        QWidget::showEvent(event);
-        if (auto* dock = qobject_cast<QDockWidget*>(parentWidget()))
-            connect(dock, &QDockWidget::visibilityChanged, this, &KernelDock::setSeen, Qt::UniqueConnection);
-        else
-            setSeen(true);
-    }
-    void hideEvent(QHideEvent* event) override {
-        QWidget::hideEvent(event);
-        setSeen(false);
-    }
 
 private:
     QWidget* makeBar() {
@@ -129,31 +98,7 @@ private:
                                   tr("Skin, shaded"), tr("Skin, evenly lit")});
         bar->addChoice("taps", tr("Taps"), {tr("7 taps"), tr("11 taps"), tr("17 taps"), tr("25 taps"), tr("41 taps")});
         bar->addChoice("truth", tr("Ground truth"), {tr("Walks"), tr("Active model")});
-        export_ = new QToolButton(this);
-        export_->setObjectName(QStringLiteral("kernel.export"));
-        export_->setText(tr("Export"));
-        export_->setAccessibleName(tr("Export the kernel"));
-        export_->setPopupMode(QToolButton::InstantPopup);
-        auto* menu = new QMenu(export_);
-        for (const std::string& format : kernelExports())
-            menu->addAction(tr("Save %1…").arg(formatTitle(format)), this, [this, format] { save(format); });
-        menu->addSeparator();
-        for (const std::string& format : kernelExports()) {
-            QAction* copy = menu->addAction(tr("Copy %1").arg(formatTitle(format)), this, [this, format] {
-                exported(format, [](const std::string& text) {
-                    QApplication::clipboard()->setText(QString::fromStdString(text));
-                });
-            });
-            copy->setObjectName(QStringLiteral("kernel.copy.") + QString::fromStdString(format));
-        }
-        menu->addSeparator();
-        QAction* command = menu->addAction(tr("Copy as command line"), this, [this] {
-            QApplication::clipboard()->setText(kernelCommandLine(desk_.workspace.state()));
-        });
-        connect(menu, &QMenu::aboutToShow, this,
-                [this, command] { command->setEnabled(!kernelCommandLine(desk_.workspace.state()).isEmpty()); });
-        export_->setMenu(menu);
-        export_->setEnabled(false);
+        export_ = new KernelExportButton(desk_, kLane, this);
         bar->addWidget(export_);
         return bar;
     }
@@ -176,7 +121,7 @@ private:
             column->addWidget(titles_[i]);
             figures_[i] = new FigureView(desk_.theme, halves_[i]);
             figures_[i]->setObjectName(QLatin1String(names[i]));
-            figures_[i]->setMinimumSize(180, 100);
+            figures_[i]->setMinimumSize(100, 100);
             column->addWidget(figures_[i], 1);
             row->addWidget(halves_[i], 1);
         }
@@ -214,23 +159,23 @@ private:
     // What stands beside what, for the width and the view.
     void arrange() {
         const KernelWish wish = kernelWish(desk_.workspace.state());
-        const bool wide = width() >= kWide, of_table = wish.view == "table";
-        table_->setVisible(wide || of_table);
+        const bool of_table = wish.view == "table", by_hand = wish.method == "manual";
+        const int room = width() - (by_hand ? kSlidersWidth : 0);
+        const bool beside = room >= kTableWidth + kStageWidth;
+        table_->setVisible(beside || of_table);
         table_->setMaximumWidth(of_table ? QWIDGETSIZE_MAX : kTableWidth);
         stage_->setVisible(!of_table);
         stage_->setCurrentWidget(wish.view == "pictures" ? static_cast<QWidget*>(pictures_) : curves_);
         table_->setMinimumWidth(of_table ? 0 : kTableWidth);
-        sliders_->setVisible(wish.method == "manual");
-        // Beside sliders a narrow dock has room for one.
-        halves_[1]->setVisible(wide || wish.method != "manual");
+        sliders_->setVisible(by_hand);
+        halves_[1]->setVisible(room >= kFiguresWidth);
         channel_->setEnabled(wish.view == "curves" || wish.view == "edge");
         signal_->setEnabled(wish.view == "pictures");
         table_->setChosen(wish.method);
     }
 
+    // Walks cost both cores: none for what nobody sees.
     void setSeen(bool seen) {
-        if (seen == seen_) return;
-        seen_ = seen;
         if (seen) return refresh();
         desk_.tasks.cancel(kLane, "kernels");
         working_ = pending_ = false;
@@ -240,7 +185,7 @@ private:
     // still shows kernels on its way.
     void refresh() {
         arrange();
-        if (!seen_) return;
+        if (!seen_->now()) return;
         if (working_) {
             pending_ = true;
             return;
@@ -291,7 +236,7 @@ private:
                  {tr("Difference"),
                   tr("RMS %1, scale ±%2 %").arg(pictures.rms, 0, 'f', 4).arg(100 * kKernelDifferenceScale),
                   pictures.difference}});
-        export_->setEnabled(true);
+        export_->setKernel(shown_);
         status_->setText(statusText(*shown));
         status_->setToolTip(status_->text());
         stepped();
@@ -316,7 +261,7 @@ private:
         showFigures({}, QString::fromUtf8(error.what()));
         pictures_->setPanels({});
         table_->clearRows();
-        export_->setEnabled(false);
+        export_->setKernel(nullptr);
         status_->setText(QString::fromStdString(error.message));
         stepped();
         setProperty("settled", true);
@@ -325,34 +270,6 @@ private:
     void stepped() {
         working_ = false;
         if (pending_) refresh();
-    }
-
-    // An engine's profile is a fit: not on the window's thread.
-    void exported(const std::string& format, std::function<void(const std::string&)> take) {
-        if (!shown_) return;
-        desk_.tasks.start(
-            {.lane = kLane, .key = "export", .title = tr("Export"), .receiver = this},
-            [shown = shown_, format, take = std::move(take)](TaskContext& context) {
-                const std::string text =
-                    exportedKernel(format, *shown->judged, shown->base->subject, shown->base->truth);
-                context.publish([take, text] { take(text); });
-            },
-            [this](const Error& error) { desk_.notices.post(error); });
-    }
-
-    void save(const std::string& format) {
-        if (!shown_) return;
-        const QString name = QString::fromStdString(shown_->base->subject.id) + QStringLiteral("_kernel.");
-        const QString path = QFileDialog::getSaveFileName(this, tr("Save kernel"), name + fileEnding(format));
-        if (path.isEmpty()) return;
-        exported(format, [this, path](const std::string& text) {
-            try {
-                writeFile(path.toStdString(), text);
-                desk_.notices.post(Notices::Level::info, tr("Saved %1").arg(path));
-            } catch (const Error& error) {
-                desk_.notices.post(error);
-            }
-        });
     }
 
     Desk& desk_;
@@ -368,10 +285,11 @@ private:
     QScrollArea* sliders_ = nullptr;
     ManualPanel* manual_ = nullptr;
     QComboBox *channel_ = nullptr, *signal_ = nullptr;
-    QToolButton* export_ = nullptr;
+    KernelExportButton* export_ = nullptr;
     QLabel* status_ = nullptr;
     int shown_taps_ = 0;
-    bool seen_ = false, working_ = false, pending_ = false;
+    Seen* seen_;
+    bool working_ = false, pending_ = false;
 };
 
 }  // namespace

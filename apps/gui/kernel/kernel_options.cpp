@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "base/text.h"
+#include "gui/state/command_line.h"
 #include "job/kernel_judged.h"
 #include "kernel/signals.h"
 
@@ -140,20 +142,8 @@ QString kernelCommandLine(const State& state) {
     const auto add = [&](const char* flag, const std::string& value) {
         line += QStringLiteral(" %1 %2").arg(QLatin1String(flag), QString::fromStdString(value));
     };
-    const SceneMaterial& material = wish.material;
-    if (!material.id.empty())
-        add("--material", material.id);
-    else {
-        const auto list = [&](const char* flag, const std::vector<double>& values) {
-            if (!values.empty()) add(flag, valueText(values));
-        };
-        list("--sigma-a", material.sigma_a);
-        list("--sigma-s", material.sigma_s);
-        list("--g", material.g);
-        list("--rdr", material.Rdr);
-        list("--ld", material.ld);
-        add("--eta", fmt::format("{:g}", material.eta));
-    }
+    for (const std::string& flag : materialFlags(wish.material))
+        line += QLatin1Char(' ') + QString::fromStdString(flag);
     for (const NamedMethod& method : namedMethods(wish.taps)) {
         if (method.name != wish.method) continue;
         add("--method", method.options.method);
@@ -163,7 +153,15 @@ QString kernelCommandLine(const State& state) {
         if (method.options.method == "gaussians") add("--count", fmt::format("{}", method.options.count));
     }
     add("--taps", fmt::format("{}", wish.taps));
-    if (wish.of_model) add("--model", wish.model.id);
+    if (wish.of_model) {
+        add("--model", shellWord(wish.model.id));
+        std::vector<std::string> settings;
+        for (const auto& [name, value] : wish.model.parameters)
+            settings.push_back(fmt::format("{}={}", name, valueText(value)));
+        if (!settings.empty()) add("--set", shellWord(join(settings, ",")));
+    } else if (wish.seed != 1) {
+        add("--seed", fmt::format("{}", wish.seed));
+    }
     return line + QStringLiteral(" --export hlsl");
 }
 

@@ -1,5 +1,6 @@
 #include "gui/kernel/manual_panel.h"
 
+#include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
 #include <QVBoxLayout>
@@ -37,16 +38,22 @@ ManualPanel::ManualPanel(Theme& theme, QWidget* parent) : QWidget(parent) {
                 add(QLatin1String(channels[c]), title + QLatin1Char(' ') + QLatin1String(channels[c]),
                     QStringLiteral("mm"), object + QLatin1Char('.') + QLatin1String(channels[c]), lengths, fills[c]);
     };
-    weight_ = add(tr("near"), tr("Part of the near Gaussian"), {}, QStringLiteral("kernel.near_weight"),
-                  {.min = 0, .max = 1, .low = 0, .high = 1}, {});
-    weight_->setToolTip(tr("The near Gaussian's part of the energy"));
-    three(near_, tr("Near, √τ"), QStringLiteral("kernel.near"));
-    three(far_, tr("Far, √τ"), QStringLiteral("kernel.far"));
+    // Above the sliders, which may be longer than the dock is high.
+    auto* head = new QHBoxLayout;
+    auto* title = new QLabel(tr("Two Gaussians"), this);
+    title->setProperty("role", "heading");
+    head->addWidget(title, 1);
     fit_ = new QPushButton(tr("Fit"), this);
     fit_->setObjectName(QStringLiteral("kernel.fit"));
     fit_->setToolTip(tr("Back to the two Gaussians that are nearest in pictures of edges"));
     connect(fit_, &QPushButton::clicked, this, &ManualPanel::fitWanted);
-    column->addWidget(fit_);
+    head->addWidget(fit_);
+    column->addLayout(head);
+    weight_ = add(tr("Near part"), tr("Part of the near Gaussian"), {}, QStringLiteral("kernel.near_weight"),
+                  {.min = 0, .max = 1, .low = 0, .high = 1}, {});
+    weight_->setToolTip(tr("The near Gaussian's part of the energy"));
+    three(near_, tr("Near, √τ"), QStringLiteral("kernel.near"));
+    three(far_, tr("Far, √τ"), QStringLiteral("kernel.far"));
     column->addStretch(1);
 }
 

@@ -54,7 +54,7 @@ std::vector<std::function<void()>> addFields(
     for (const scene_format::Field<T>& field : fields) {
         auto* widget = new ParamWidget(desk.theme, field.param);
         column->addWidget(widget);
-        const QString name = QString::fromStdString(field.param.name).replace('_', ' ');
+        const QString name = labelOf(field.param);
         QObject::connect(widget, &ParamWidget::edited, widget, [field, edit, name](const ParamValue& value) {
             edit(name, [&](T& changed) { setField(field, changed, value); });
         });

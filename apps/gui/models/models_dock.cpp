@@ -42,7 +42,10 @@ QIcon swatch(const QColor& color, qreal ratio) {
     painter.setPen(Qt::NoPen);
     painter.setBrush(color);
     painter.drawRoundedRect(QRectF(2, 2, 12, 12), 3, 3);
-    return picture;
+    // A row that is chosen keeps it.
+    QIcon icon(picture);
+    icon.addPixmap(picture, QIcon::Selected);
+    return icon;
 }
 
 class ModelsDock : public QWidget {

@@ -14,6 +14,7 @@
 #include "draw/plot_area.h"
 #include "draw/text_width.h"
 #include "gui/plot/figure_ink.h"
+#include "gui/plot/read_out.h"
 #include "gui/window/theme.h"
 
 namespace searchlight::gui {
@@ -44,20 +45,6 @@ bool zoomInterval(AxisScale scale, double t, double factor, double shift, double
     max = new_high;
     return true;
 }
-
-// The value of a series at x: that of its bin, or of the line through its points.
-std::optional<double> valueAt(const Series& series, double x, std::size_t* index) {
-    const auto above = std::ranges::upper_bound(series.x, x);
-    if (above == series.x.begin() || above == series.x.end()) return {};
-    const std::size_t i = static_cast<std::size_t>(above - series.x.begin()) - 1;
-    *index = i;
-    if (series.style == SeriesStyle::steps) return series.y[i];
-    if (i + 1 >= series.y.size()) return {};
-    const double t = (x - series.x[i]) / (series.x[i + 1] - series.x[i]);
-    return series.y[i] + t * (series.y[i + 1] - series.y[i]);
-}
-
-QString numberText(double value) { return QString::number(value, 'g', 4); }
 
 }  // namespace
 
@@ -105,11 +92,15 @@ Rect FigureView::frameOf(const FigureRange& range) const {
     double labels = 0;
     const AxisTicks ticks = ticksOf(figure_.y, range.y_min, range.y_max, std::max(3, height() / 64));
     for (const Tick& tick : ticks.ticks) labels = std::max(labels, labelWidth(tick));
-    const double left = margin + label_size + 8 + labels + 7;
-    const double top = margin + (ticks.factor != 0 ? 16 : 4);
+    const double left = margin + (labelStandsAbove() ? 0 : label_size + 8) + labels + 7;
+    const double top = margin + (labelStandsAbove() ? 18 : ticks.factor != 0 ? 16 : 4);
     return {std::round(left) + 0.5, std::round(top) + 0.5,
             std::max(left + 40, width() - margin - 6.0 - legend_room_) + 0.5,
             std::max(top + 40, height() - margin - 36.0) + 0.5};
+}
+
+bool FigureView::labelStandsAbove() const {
+    return textWidth(axisText(figure_.y), label_size) > height() - 2 * margin - 40;
 }
 
 void FigureView::zoom(double factor, QPointF about) {
@@ -137,61 +128,33 @@ void FigureView::moveBy(QPointF pixels) {
 void FigureView::setCursor(std::optional<QPointF> at) {
     cursor_ = at;
     read_out_.clear();
+    if (!at) return;
+    if (!isSingle()) return readPanels(*at);
     const auto range = shownRange();
-    if (!at || !range) return;
+    if (!range) return;
     const Rect frame = frameOf(*range);
     if (!frame.contains({at->x(), at->y()})) return;
     double x = range->x_min, x_end = range->x_max;
     if (!zoomInterval(figure_.x.scale, (at->x() - frame.left) / frame.width(), 1e-7, 0, x, x_end)) return;
-    read_out_ << QStringLiteral("%1 %2 %3")
-                     .arg(QString::fromStdString(figure_.x.label), numberText(x),
-                          QString::fromStdString(figure_.x.unit));
-    for (const Series& series : figure_.series) {
-        if (!series.in_legend) continue;
-        std::size_t i = 0;
-        const auto value = valueAt(series, x, &i);
-        if (!value || !std::isfinite(*value)) continue;
-        QString text = QString::fromStdString(series.label) + QStringLiteral("\t") + numberText(*value);
-        if (!series.lower.empty() && series.style == SeriesStyle::steps)
-            text += QStringLiteral(" ± ") + numberText(0.5 * (series.upper[i] - series.lower[i]));
-        read_out_ << text;
-    }
+    read_out_ = readSeries(figure_, x);
 }
 
-void FigureView::paintReadOut(QPainter& painter, const Rect& frame) {
-    if (!cursor_ || read_out_.isEmpty()) return;
-    const Colors& colors = theme_.colors();
-    painter.setPen(QPen(colors.muted, 1, Qt::DotLine));
-    painter.drawLine(QPointF(cursor_->x(), frame.top), QPointF(cursor_->x(), frame.bottom));
-    const QFont font = theme_.smallFont();
-    const QFontMetrics metrics(font);
-    int names = 0, values = 0;
-    for (const QString& line : read_out_) {
-        const QStringList parts = line.split(QLatin1Char('\t'));
-        names = std::max(names, metrics.horizontalAdvance(parts.front()));
-        if (parts.size() > 1) values = std::max(values, metrics.horizontalAdvance(parts.back()));
-    }
-    const int row = metrics.height() + 2, box_width = names + (values > 0 ? values + 20 : 0) + 16;
-    const int box_height = row * static_cast<int>(read_out_.size()) + 10;
-    double left = cursor_->x() + 14;
-    if (left + box_width > frame.right) left = cursor_->x() - 14 - box_width;
-    left = std::max(left, frame.left + 2);
-    const double top = std::clamp(cursor_->y() - 0.5 * box_height, frame.top + 2,
-                                  std::max(frame.top + 2, frame.bottom - 2 - box_height));
-    QColor back = colors.raised;
-    back.setAlphaF(0.94f);
-    painter.setPen(QPen(colors.line, 1));
-    painter.setBrush(back);
-    painter.drawRoundedRect(QRectF(left, top, box_width, box_height), 4, 4);
-    painter.setFont(font);
-    for (int i = 0; i < read_out_.size(); ++i) {
-        const QStringList parts = read_out_[i].split(QLatin1Char('\t'));
-        const double base = top + 5 + row * (i + 1) - metrics.descent() - 1;
-        painter.setPen(i == 0 ? colors.muted : colors.text);
-        painter.drawText(QPointF(left + 8, base), parts.front());
-        if (parts.size() > 1)
-            painter.drawText(QPointF(left + box_width - 8 - metrics.horizontalAdvance(parts.back()), base),
-                             parts.back());
+// All maps at the place under the cursor in one of them.
+void FigureView::readPanels(QPointF at) {
+    if (isEmpty()) return;
+    try {
+        const Drawing& drawing = panels();
+        const PanelPlace place = panelPlace(drawing);
+        const Point on_paper{(at.x() - place.offset.x()) / place.scale, (at.y() - place.offset.y()) / place.scale};
+        for (const PanelFrame& frame : drawing.frames) {
+            if (!frame.rect.contains(on_paper)) continue;
+            const double tx = (on_paper.x - frame.rect.left) / frame.rect.width();
+            const double ty = (frame.rect.bottom - on_paper.y) / frame.rect.height();
+            read_out_ = readMaps(figure_, frame.x_min + tx * (frame.x_max - frame.x_min),
+                                 frame.y_min + ty * (frame.y_max - frame.y_min));
+        }
+    } catch (const Error&) {
+        // What cannot be laid out says so where it would stand.
     }
 }
 
@@ -224,7 +187,7 @@ void FigureView::paintSingle(QPainter& painter) {
             break;
         }
         const LegendPlace place = placeLegend(legend, frame, drawn);
-        if (place.covered <= bearable || frame.width() - legend.width < 280) {
+        if (place.covered <= bearable || frame.width() - legend.width < 200) {
             drawLegend(shapes, entries, place.box);
             break;
         }
@@ -233,16 +196,18 @@ void FigureView::paintSingle(QPainter& painter) {
     const Rect frame = frameOf(*range);
     shapes.push_back(Text{
         {0.5 * (frame.left + frame.right), frame.bottom + 36}, axisText(figure_.x), label_size, Anchor::middle, ink});
-    shapes.push_back(Text{{margin + label_size - 3, 0.5 * (frame.top + frame.bottom)},
-                          axisText(figure_.y),
-                          label_size,
-                          Anchor::middle,
-                          ink,
-                          false,
-                          true});
-    if (y_ticks.factor != 0) drawFactor(shapes, {frame.left, frame.top - 4}, y_ticks.factor);
+    const bool above = labelStandsAbove();
+    const Point label =
+        above ? Point{frame.left, frame.top - 6} : Point{margin + label_size - 3, 0.5 * (frame.top + frame.bottom)};
+    shapes.push_back(
+        Text{label, axisText(figure_.y), label_size, above ? Anchor::start : Anchor::middle, ink, false, !above});
+    const double after_label = above ? textWidth(axisText(figure_.y), label_size) + 12 : 0;
+    if (y_ticks.factor != 0) drawFactor(shapes, {frame.left + after_label, frame.top - 5}, y_ticks.factor);
     paintShapes(painter, shapes, figureInk(theme_));
-    paintReadOut(painter, frame);
+    if (!cursor_ || read_out_.isEmpty()) return;
+    painter.setPen(QPen(theme_.colors().muted, 1, Qt::DotLine));
+    painter.drawLine(QPointF(cursor_->x(), frame.top), QPointF(cursor_->x(), frame.bottom));
+    paintReadOut(painter, theme_, read_out_, *cursor_, QRectF(frame.left, frame.top, frame.width(), frame.height()));
 }
 
 // As many columns as make the panels largest in this window; its caption is for paper.
@@ -264,15 +229,23 @@ const Drawing& FigureView::panels() {
     return *panels_;
 }
 
+FigureView::PanelPlace FigureView::panelPlace(const Drawing& drawing) const {
+    const double scale = std::min((width() - 2 * margin) / drawing.width, (height() - 2 * margin) / drawing.height);
+    return {scale, {0.5 * (width() - scale * drawing.width), 0.5 * (height() - scale * drawing.height)}};
+}
+
 void FigureView::paintPanels(QPainter& painter) {
     const Drawing& drawing = panels();
-    const double scale = std::min((width() - 2 * margin) / drawing.width, (height() - 2 * margin) / drawing.height);
-    painter.translate(0.5 * (width() - scale * drawing.width), 0.5 * (height() - scale * drawing.height));
-    painter.scale(scale, scale);
+    const PanelPlace place = panelPlace(drawing);
+    painter.save();
+    painter.translate(place.offset);
+    painter.scale(place.scale, place.scale);
     // What is white stands on a map's own colours.
     const InkFunction ink_of = figureInk(theme_);
     paintShapes(painter, drawing.shapes,
                 [&](std::string_view color) { return color == "#ffffff" ? std::string(color) : ink_of(color); });
+    painter.restore();
+    if (cursor_ && !read_out_.isEmpty()) paintReadOut(painter, theme_, read_out_, *cursor_, QRectF(rect()));
 }
 
 void FigureView::paintEvent(QPaintEvent*) {

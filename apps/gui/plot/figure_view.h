@@ -27,7 +27,7 @@ public:
     const Figure& figure() const { return figure_; }
     bool isEmpty() const;
 
-    /// The values of all series at the cursor's x: what the read-out shows. Empty where nothing is read.
+    /// The values of all series at the cursor's x, or of all maps at its place. Empty where nothing is read.
     QStringList readOut() const { return read_out_; }
 
     /// The range shown; none: nothing to show, or several panels.
@@ -48,7 +48,16 @@ protected:
     void leaveEvent(QEvent*) override;
 
 private:
+    // Where the drawing of panels stands in the widget.
+    struct PanelPlace {
+        double scale;
+        QPointF offset;
+    };
+
     bool isSingle() const;
+    // A small plot has no room for the y axis' label beside it.
+    bool labelStandsAbove() const;
+    PanelPlace panelPlace(const Drawing& drawing) const;
     Rect frameOf(const FigureRange& range) const;
     void zoom(double factor, QPointF about);
     void moveBy(QPointF pixels);
@@ -56,7 +65,7 @@ private:
     void paintSingle(QPainter& painter);
     const Drawing& panels();
     void paintPanels(QPainter& painter);
-    void paintReadOut(QPainter& painter, const Rect& frame);
+    void readPanels(QPointF at);
 
     Theme& theme_;
     Figure figure_;

@@ -2,17 +2,19 @@
 
 #include <QComboBox>
 #include <QDoubleSpinBox>
-#include <QResizeEvent>
 #include <QSignalBlocker>
 #include <QToolButton>
 #include <algorithm>
 
+#include "gui/widgets/flow_row.h"
 #include "gui/window/theme.h"
 
 namespace searchlight::gui {
 
 OptionBar::OptionBar(Desk& desk, std::string section, QWidget* parent)
     : QWidget(parent), desk_(desk), section_(std::move(section)) {
+    row_ = new FlowRow(this);
+    row_->setContentsMargins(Space::s, Space::xs, Space::s, Space::xs);
     QSizePolicy policy(QSizePolicy::Preferred, QSizePolicy::Fixed);
     policy.setHeightForWidth(true);
     setSizePolicy(policy);
@@ -96,33 +98,6 @@ QAbstractButton* OptionBar::addToggle(const std::string& option, const QString& 
     return button;
 }
 
-void OptionBar::addWidget(QWidget* widget) {
-    widget->setParent(this);
-    widgets_.push_back(widget);
-    updateGeometry();
-}
-
-// Row by row from the left, all of one height.
-int OptionBar::place(int width, bool move) const {
-    int x = Space::s, y = Space::xs;
-    for (QWidget* widget : widgets_) {
-        if (widget->isHidden()) continue;
-        const int wide = widget->sizeHint().width();
-        if (x > Space::s && x + wide + Space::s > width) {
-            x = Space::s;
-            y += Space::row + Space::xs;
-        }
-        if (move) widget->setGeometry(x, y, std::min(wide, width - 2 * Space::s), Space::row);
-        x += wide + Space::s;
-    }
-    return y + Space::row + Space::xs;
-}
-
-QSize OptionBar::sizeHint() const { return {360, place(360, false)}; }
-
-void OptionBar::resizeEvent(QResizeEvent* event) {
-    place(event->size().width(), true);
-    setFixedHeight(place(event->size().width(), false));
-}
+void OptionBar::addWidget(QWidget* widget) { row_->addWidget(widget); }
 
 }  // namespace searchlight::gui

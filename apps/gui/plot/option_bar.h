@@ -4,15 +4,15 @@
 #include <QStringList>
 #include <QWidget>
 #include <functional>
-#include <vector>
 
 #include "gui/window/desk.h"
 
 class QAbstractButton;
-class QBoxLayout;
 class QComboBox;
 
 namespace searchlight::gui {
+
+class FlowRow;
 
 class OptionBar : public QWidget {
     Q_OBJECT
@@ -30,21 +30,13 @@ public:
     /// Anything else.
     void addWidget(QWidget* widget);
 
-    QSize sizeHint() const override;
-    bool hasHeightForWidth() const override { return true; }
-    int heightForWidth(int width) const override { return place(width, false); }
-
-protected:
-    void resizeEvent(QResizeEvent*) override;
-
 private:
     const Param& param(const std::string& option) const;
     void bind(const std::string& option, QWidget* widget, std::function<void(const ParamValue&)> show);
-    int place(int width, bool move) const;
 
     Desk& desk_;
     std::string section_;
-    std::vector<QWidget*> widgets_;
+    FlowRow* row_;
 };
 
 }  // namespace searchlight::gui

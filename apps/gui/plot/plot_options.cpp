@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "gui/state/command_line.h"
 #include "job/figure_result.h"
 
 namespace searchlight::gui {
@@ -106,19 +107,11 @@ QString plotCommandLine(const State& state) {
             name += QStringLiteral(":%1=%2").arg(QString::fromStdString(key), QString::fromStdString(valueText(value)));
         models << name;
     }
-    const SceneMaterial& material = state.scene.material;
-    const auto list = [](const char* flag, const std::vector<double>& values) {
-        return values.empty()
-                   ? QString()
-                   : QStringLiteral(" %1 %2").arg(QLatin1String(flag), QString::fromStdString(valueText(values)));
-    };
-    QString line =
-        QStringLiteral("searchlight plot %1 --models '%2'").arg(QLatin1String(command), models.join(QLatin1Char(',')));
-    if (!material.id.empty())
-        line += QStringLiteral(" --material %1").arg(QString::fromStdString(material.id));
-    else
-        line += list("--sigma-a", material.sigma_a) + list("--sigma-s", material.sigma_s) + list("--g", material.g) +
-                list("--rdr", material.Rdr) + list("--ld", material.ld) + QStringLiteral(" --eta %1").arg(material.eta);
+    QString line = QStringLiteral("searchlight plot %1 --models %2")
+                       .arg(QLatin1String(command),
+                            QString::fromStdString(shellWord(models.join(QLatin1Char(',')).toStdString())));
+    for (const std::string& flag : materialFlags(state.scene.material))
+        line += QLatin1Char(' ') + QString::fromStdString(flag);
     line += QStringLiteral(" --angle-deg %1 --channel %2 --reference-walks %3")
                 .arg(QString::number(number(state, "angle_deg")), QString::fromStdString(text(state, "channel")),
                      QString::fromStdString(text(state, "walks")));

@@ -13,6 +13,8 @@ namespace searchlight::gui {
 namespace {
 
 constexpr int kTitle = 22, kNote = 18;
+// Of a picture that frames a sphere: without most of the empty space around it.
+constexpr double kShownPart = 0.78;
 
 // Columns that leave the largest squares.
 int columnsFor(int panels, int width, int height) {
@@ -51,7 +53,7 @@ void SphereView::setPanels(QList<Panel> panels, const QString& empty_text) {
 int SphereView::pictureSide(int panels) const {
     const int columns = columnsFor(panels, width(), height()), rows = (panels + columns - 1) / columns;
     const int side = std::min(width() / columns - Space::s, height() / rows - kTitle - kNote);
-    return static_cast<int>(std::clamp(side, 48, 480) * devicePixelRatioF());
+    return static_cast<int>(std::clamp(side, 48, 480) * devicePixelRatioF() / kShownPart);
 }
 
 void SphereView::paintEvent(QPaintEvent*) {
@@ -83,10 +85,13 @@ void SphereView::paintEvent(QPaintEvent*) {
         const double side = std::min(wide - Space::s, high - kTitle - kNote);
         const QRectF place(cell.center().x() - 0.5 * side, cell.top() + kTitle + 0.5 * (high - kTitle - kNote - side),
                            side, side);
-        if (!panel.picture.isNull())
-            painter.drawImage(place, panel.picture);
-        else
+        if (!panel.picture.isNull()) {
+            const QSizeF whole(panel.picture.size());
+            const QPointF corner(0.5 * (1 - kShownPart) * whole.width(), 0.5 * (1 - kShownPart) * whole.height());
+            painter.drawImage(place, panel.picture, QRectF(corner, kShownPart * whole));
+        } else {
             painter.drawText(place, Qt::AlignCenter | Qt::TextWordWrap, empty_text_);
+        }
     }
 }
 

@@ -1,7 +1,6 @@
 #include "gui/spheres/spheres_dock.h"
 
 #include <QComboBox>
-#include <QDockWidget>
 #include <QLabel>
 #include <QTimer>
 #include <QVBoxLayout>
@@ -15,6 +14,7 @@
 #include "gui/models/model_status.h"
 #include "gui/plot/option_bar.h"
 #include "gui/spheres/sphere_view.h"
+#include "gui/window/seen.h"
 #include "gui/window/theme.h"
 #include "io/image_file.h"
 #include "job/live_spheres.h"
@@ -80,7 +80,8 @@ QString countText(double value) {
 
 class SpheresDock : public QWidget {
 public:
-    explicit SpheresDock(Desk& desk) : desk_(desk), lane_(std::make_shared<LaneSpheres>()) {
+    explicit SpheresDock(Desk& desk) : desk_(desk), lane_(std::make_shared<LaneSpheres>()), seen_(new Seen(this)) {
+        connect(seen_, &Seen::changed, this, &SpheresDock::setSeen);
         auto* layout = new QVBoxLayout(this);
         layout->setContentsMargins(0, 0, 0, 0);
         layout->setSpacing(0);
@@ -113,20 +114,6 @@ public:
         connect(view_, &SphereView::resized, this, [this] { resize_.start(); });
     }
 
-protected:
-    // Walks cost both cores: none for what nobody sees. A dock behind another tab counts as visible for its widgets.
-    void showEvent(QShowEvent* event) override {
-        QWidget::showEvent(event);
-        if (auto* dock = qobject_cast<QDockWidget*>(parentWidget()))
-            connect(dock, &QDockWidget::visibilityChanged, this, &SpheresDock::setSeen, Qt::UniqueConnection);
-        else
-            setSeen(true);
-    }
-    void hideEvent(QHideEvent* event) override {
-        QWidget::hideEvent(event);
-        setSeen(false);
-    }
-
 private:
     double number(const char* name) const {
         return std::get<double>(optionOf(desk_.workspace.state(), "spheres", name));
@@ -136,6 +123,9 @@ private:
         const State& state = desk_.workspace.state();
         SphereRequest request;
         request.scene = sceneOf(state, state.active);
+        // Turned with the object, but always framed.
+        request.scene.camera.distance = 0;
+        request.scene.camera.target = {};
         request.width = request.height = view_->pictureSide(kPictures);
         request.seed = state.seed;
         const std::string& quality = std::get<std::string>(optionOf(state, "spheres", "quality"));
@@ -146,9 +136,8 @@ private:
         return request;
     }
 
+    // Walks cost both cores: none for what nobody sees.
     void setSeen(bool seen) {
-        if (seen == seen_) return;
-        seen_ = seen;
         if (seen) return refresh();
         desk_.tasks.cancel(kLane, "spheres");
         working_ = pending_ = false;
@@ -156,7 +145,7 @@ private:
 
     // As in the plot: a step that has begun is shown before the next wish begins.
     void refresh() {
-        if (!seen_) return;
+        if (!seen_->now()) return;
         if (working_) {
             pending_ = true;
             return;
@@ -242,7 +231,8 @@ private:
     SphereView* view_ = nullptr;
     QLabel* status_ = nullptr;
     QTimer resize_;
-    bool seen_ = false, working_ = false, pending_ = false;
+    Seen* seen_;
+    bool working_ = false, pending_ = false;
 };
 
 }  // namespace

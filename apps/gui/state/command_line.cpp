@@ -58,24 +58,6 @@ LightFlags lightFlags(const std::vector<Light>& lights) {
     return out;
 }
 
-std::vector<std::string> materialFlags(const SceneMaterial& material) {
-    std::vector<std::string> flags;
-    if (!material.id.empty()) {
-        flags.push_back("--material " + shellWord(material.id));
-    } else {
-        const auto list = [&](const char* flag, const std::vector<double>& values) {
-            if (!values.empty()) flags.push_back(fmt::format("{} {}", flag, valueText(values)));
-        };
-        list("--sigma-a", material.sigma_a);
-        list("--sigma-s", material.sigma_s);
-        list("--rdr", material.Rdr);
-        list("--ld", material.ld);
-        list("--g", material.g);
-        flags.push_back("--eta " + numberText(material.eta));
-    }
-    return flags;
-}
-
 std::string optionFlag(const std::string& name, const ParamValue& value) {
     std::string flag = "--" + name;
     std::ranges::replace(flag, '_', '-');
@@ -98,6 +80,25 @@ std::string shellWord(const std::string& text) {
     return quoted + "'";
 }
 
+std::vector<std::string> materialFlags(const SceneMaterial& material) {
+    std::vector<std::string> flags;
+    if (!material.id.empty()) {
+        flags.push_back("--material " + shellWord(material.id));
+    } else {
+        const auto list = [&](const char* flag, const std::vector<double>& values) {
+            if (!values.empty()) flags.push_back(fmt::format("{} {}", flag, valueText(values)));
+        };
+        list("--sigma-a", material.sigma_a);
+        list("--sigma-s", material.sigma_s);
+        list("--Rdr", material.Rdr);
+        list("--ld", material.ld);
+        list("--g", material.g);
+        flags.push_back("--eta " + numberText(material.eta));
+    }
+    if (material.scale != 1) flags.push_back("--material-scale " + numberText(material.scale));
+    return flags;
+}
+
 std::string commandLine(const State& state, const std::string& output, int width, int height) {
     Job job = renderJob(state);
     job.window.clear();
@@ -106,7 +107,7 @@ std::string commandLine(const State& state, const std::string& output, int width
     const Scene& scene = job.scene;
     const Camera standard;
     LightFlags lights = lightFlags(scene.lights);
-    if (!lights.suffice || scene.material.scale != 1 || (scene.coat && !scene.coat->parameters.empty()) ||
+    if (!lights.suffice || (scene.coat && !scene.coat->parameters.empty()) ||
         (scene.ground && scene.ground->albedo != Ground{}.albedo))
         return byJob(job);
     std::vector<std::string> words{"searchlight render", shellWord(scene.object), "--scale " + numberText(scene.scale),

@@ -148,8 +148,10 @@ void ObjectView::paintLabels(QPainter& painter) {
                 label += tr(", %1 M walks, %2 % a pixel")
                              .arg(static_cast<double>(shown.walks) * 1e-6, 0, 'g', 2)
                              .arg(100 * shown.reference_error, 0, 'g', 2);
-            else if (shown.b.isNull())
+            else if (textOption(state, "against") == "reference")
                 label += tr(", walking...");
+            else if (shown.partly)
+                label += tr(", being summed...");
             QColor dot = colors.muted;
             const QString against = QString::fromStdString(textOption(state, "against"));
             if (against.startsWith("model ") && against.mid(6).toInt() < static_cast<int>(state.models.size()))

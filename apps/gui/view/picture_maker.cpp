@@ -14,6 +14,8 @@ namespace searchlight::gui {
 
 namespace {
 
+constexpr double longest_moving_ms = 250, between_steps_ms = 400;
+
 /// The renderer owns its evaluator, and this one outlives the renderer's.
 class BorrowedEvaluator : public Evaluator {
 public:
@@ -60,20 +62,26 @@ RenderSettings settingsOf(const PictureRequest& request, std::size_t points) {
 
 }  // namespace
 
-Picture PictureMaker::make(const std::string& side, const PictureRequest& request, TaskContext& context) {
+Picture PictureMaker::make(const std::string& side, const PictureRequest& request, TaskContext& context,
+                           const std::function<void(const Picture&)>& so_far) {
     try {
-        return makeOnce(side, request, context);
+        return makeOnce(side, request, context, so_far);
     } catch (const Error& error) {
         if (error.kind != ErrorKind::device || !context.engine().contextLost()) throw;
     }
     // A context that was lost is built again once; what is lost in the same picture twice is the model's fault.
     clear();
     context.engine().dropContext();
-    return makeOnce(side, request, context);
+    return makeOnce(side, request, context, so_far);
 }
 
-Picture PictureMaker::makeOnce(const std::string& name, const PictureRequest& request, TaskContext& context) {
-    const auto begin = std::chrono::steady_clock::now();
+Picture PictureMaker::makeOnce(const std::string& name, const PictureRequest& request, TaskContext& context,
+                               const std::function<void(const Picture&)>& so_far) {
+    using Clock = std::chrono::steady_clock;
+    const auto begin = Clock::now();
+    const auto msSince = [](Clock::time_point time) {
+        return std::chrono::duration<double, std::milli>(Clock::now() - time).count();
+    };
     Side& side = sides_[name];
     const bool needs_context = request.scene.coat && !request.scene.coat->brdf.empty();
     if (!side.renderer || (needs_context && !side.has_context)) {
@@ -89,7 +97,17 @@ Picture PictureMaker::makeOnce(const std::string& name, const PictureRequest& re
     Picture picture;
     renderer.start(context);
     if (request.layer == "picture") {
+        auto told = Clock::now();
         while (!renderer.step(context)) {
+            if (context.cancelled()) throw interruptedError();
+            if (request.moving && msSince(begin) > longest_moving_ms) break;
+            if (request.moving || msSince(told) < between_steps_ms) continue;
+            picture.image = std::make_shared<const Image>(renderer.image(context));
+            picture.report = renderer.report();
+            picture.subject = side.subject;
+            picture.ms = msSince(begin);
+            so_far(picture);
+            told = Clock::now();
         }
         picture.image = std::make_shared<const Image>(renderer.image(context));
     } else {
@@ -100,7 +118,7 @@ Picture PictureMaker::makeOnce(const std::string& name, const PictureRequest& re
     picture.subject = side.subject;
     if (!request.moving && !renderer.stages().object->isMesh()) side.points = 0;
     if (!request.moving && renderer.stages().object->isMesh()) side.points = picture.report.points;
-    picture.ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+    picture.ms = msSince(begin);
     return picture;
 }
 

@@ -2,6 +2,7 @@
 // renderers.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -37,8 +38,11 @@ struct Picture {
 /// Lives on one lane's thread.
 class PictureMaker {
 public:
-    /// `side`: "a", "b": each has a renderer of its own. Throws as Renderer does.
-    Picture make(const std::string& side, const PictureRequest& request, TaskContext& context);
+    /// `side`: "a", "b": each has a renderer of its own. A technique that takes its time tells `so_far` a few times a
+    /// second; a picture that moves is given up where it takes longer than a moment, and is what there is by then.
+    /// Throws as Renderer does.
+    Picture make(const std::string& side, const PictureRequest& request, TaskContext& context,
+                 const std::function<void(const Picture&)>& so_far);
 
     /// That side is not shown any more.
     void forget(const std::string& side) { sides_.erase(side); }
@@ -61,7 +65,8 @@ private:
         std::shared_ptr<Evaluator> evaluator;
     };
 
-    Picture makeOnce(const std::string& side, const PictureRequest& request, TaskContext& context);
+    Picture makeOnce(const std::string& side, const PictureRequest& request, TaskContext& context,
+                     const std::function<void(const Picture&)>& so_far);
     RenderMaterial materialOf(const Scene& scene, Engine& engine, Subject& subject);
 
     std::map<std::string, Side> sides_;

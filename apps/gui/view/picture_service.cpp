@@ -81,7 +81,8 @@ void PictureService::setSize(QSize size) {
 }
 
 bool PictureService::atRest() const {
-    return !running_preview_ && !running_full_ && !pending_ && !rest_.isActive() && shown_.preview == 1;
+    return !running_preview_ && !running_full_ && !pending_ && !rest_.isActive() && shown_.preview == 1 &&
+           !shown_.partly;
 }
 
 void PictureService::changed(Change change) {
@@ -157,6 +158,35 @@ PictureService::Request PictureService::requestOf(bool moving) const {
     return request;
 }
 
+ViewPicture PictureService::viewOf(const Request& request, const Picture& a, const Picture* b) {
+    ViewPicture picture;
+    picture.label_a = request.label_a;
+    picture.label_b = request.label_b;
+    picture.linear_a = a.image;
+    picture.report = a.report;
+    picture.subject = a.subject;
+    picture.preview = request.a.preview;
+    picture.exposure = request.exposure.value_or(a.report.exposure);
+    ToneMap tone_map = request.tone_map;
+    tone_map.exposure = picture.exposure;
+    picture.a = shownImage(*a.image, tone_map, request.channel);
+    if (b) picture.linear_b = b->image;
+    if (request.with_reference && request.reference.image) {
+        picture.linear_b = request.reference.image;
+        picture.walks = request.reference.walks;
+        picture.reference_error = request.reference.relative_error;
+    }
+    if (!picture.linear_b) return picture;
+    const Image &one = *picture.linear_a, &other = *picture.linear_b;
+    picture.b = shownImage(other, tone_map, request.channel);
+    if (one.width == other.width && one.height == other.height) {
+        picture.difference_rms = relativeDifference(one, other, request.channel);
+        if (request.difference)
+            picture.difference = differenceImage(one, other, request.difference_scale, request.channel);
+    }
+    return picture;
+}
+
 void PictureService::submit(bool moving) {
     if (size_.isEmpty()) return;
     startReference();
@@ -170,39 +200,24 @@ void PictureService::submit(bool moving) {
     const auto work = [this, request, moving, maker = maker_](TaskContext& context) {
         QElapsedTimer clock;
         clock.start();
-        const Picture a = maker->make("a", request.a, context);
+        const auto ms = [&] { return static_cast<double>(clock.nsecsElapsed()) * 1e-6; };
+        const auto tell = [&](const Picture& a, const Picture* b) {
+            ViewPicture picture = viewOf(request, a, b);
+            picture.partly = true;
+            picture.ms = ms();
+            context.publish([this, picture = std::move(picture)]() mutable { partlyDelivered(std::move(picture)); });
+        };
+        const Picture a = maker->make("a", request.a, context, [&](const Picture& so_far) { tell(so_far, nullptr); });
         std::optional<Picture> b;
-        if (request.b)
-            b = maker->make("b", *request.b, context);
-        else
+        if (request.b) {
+            // The other side may take much longer than this one.
+            if (!moving) tell(a, nullptr);
+            b = maker->make("b", *request.b, context, [&](const Picture& so_far) { tell(a, &so_far); });
+        } else {
             maker->forget("b");
-        ViewPicture picture;
-        picture.label_a = request.label_a;
-        picture.label_b = request.label_b;
-        picture.linear_a = a.image;
-        picture.report = a.report;
-        picture.subject = a.subject;
-        picture.preview = request.a.preview;
-        picture.exposure = request.exposure.value_or(a.report.exposure);
-        ToneMap tone_map = request.tone_map;
-        tone_map.exposure = picture.exposure;
-        picture.a = shownImage(*a.image, tone_map, request.channel);
-        if (b) picture.linear_b = b->image;
-        if (request.with_reference && request.reference.image) {
-            picture.linear_b = request.reference.image;
-            picture.walks = request.reference.walks;
-            picture.reference_error = request.reference.relative_error;
         }
-        if (picture.linear_b) {
-            const Image &one = *picture.linear_a, &other = *picture.linear_b;
-            picture.b = shownImage(other, tone_map, request.channel);
-            if (one.width == other.width && one.height == other.height) {
-                picture.difference_rms = relativeDifference(one, other, request.channel);
-                if (request.difference)
-                    picture.difference = differenceImage(one, other, request.difference_scale, request.channel);
-            }
-        }
-        picture.ms = static_cast<double>(clock.nsecsElapsed()) * 1e-6;
+        ViewPicture picture = viewOf(request, a, b ? &*b : nullptr);
+        picture.ms = ms();
         context.publish([this, picture = std::move(picture), moving, ms = picture.ms]() mutable {
             delivered(std::move(picture), moving, ms);
         });
@@ -213,6 +228,16 @@ void PictureService::submit(bool moving) {
         emit failed(QString::fromUtf8(error.what()));
         if (pending_) submit(true);
     });
+}
+
+void PictureService::partlyDelivered(ViewPicture picture) {
+    // A side that is not begun yet keeps what it showed, if that was the same thing.
+    if (picture.b.isNull() && picture.label_b == shown_.label_b) {
+        picture.b = shown_.b;
+        picture.difference = shown_.difference;
+    }
+    shown_ = std::move(picture);
+    emit pictureShown();
 }
 
 void PictureService::delivered(ViewPicture picture, bool moving, double ms) {

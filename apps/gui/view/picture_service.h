@@ -26,6 +26,7 @@ struct ViewPicture {
     double exposure = 0;         ///< stops that were used
     double ms = 0;               ///< on the engine's thread
     double preview = 1;          ///< fraction of the full size
+    bool partly = false;         ///< a side is still being summed, or missing
     double difference_rms = -1;  ///< of a against b over the mean of b; below 0: not compared
     std::uint64_t walks = 0;     ///< of the reference; 0: b is none
     double reference_error = 0;  ///< of a pixel of it, relative
@@ -57,8 +58,10 @@ private:
     void request(bool moving);
     Request requestOf(bool moving) const;
     void submit(bool moving);
+    void partlyDelivered(ViewPicture picture);
     void delivered(ViewPicture picture, bool moving, double ms);
     void rest();
+    static ViewPicture viewOf(const Request& request, const Picture& a, const Picture* b);
     void startReference();
     QString modelLabel(int model) const;
 

@@ -29,6 +29,7 @@ TrackSlider::TrackSlider(Theme& theme, QColor fill, QWidget* parent)
     setSingleStep(steps / 100);
     setPageStep(steps / 10);
     setFocusPolicy(Qt::StrongFocus);
+    setMinimumWidth(48);
     connect(&theme_, &Theme::changed, this, qOverload<>(&QWidget::update));
 }
 

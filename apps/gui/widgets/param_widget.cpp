@@ -21,8 +21,6 @@ namespace {
 
 constexpr int label_width = 92;
 
-QString labelOf(const Param& param) { return QString::fromStdString(param.name).replace('_', ' '); }
-
 QLabel* label(const Param& param, QWidget* parent) {
     auto* text = new QLabel(labelOf(param), parent);
     text->setMinimumWidth(label_width);
@@ -39,6 +37,17 @@ QHBoxLayout* rowOf(ParamWidget* widget) {
 }
 
 }  // namespace
+
+QString labelOf(const Param& param) {
+    QString text = QString::fromStdString(param.name);
+    const QString unit = QString::fromStdString(param.unit);
+    // The unit stands behind the number.
+    if (!unit.isEmpty() && text.endsWith('_' + unit)) text.chop(unit.size() + 1);
+    text.replace('_', ' ');
+    // A symbol is not a word.
+    if (text.size() > 3) text[0] = text[0].toUpper();
+    return text;
+}
 
 NumberRange sliderRange(const Param& param) {
     NumberRange range{.min = param.min, .max = param.max, .low = param.min, .high = param.max};

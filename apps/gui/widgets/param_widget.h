@@ -10,6 +10,9 @@ namespace searchlight::gui {
 
 class Theme;
 
+/// What a person reads: words instead of underscores, without the unit.
+QString labelOf(const Param& param);
+
 /// One row, label included. Every ParamType has one.
 class ParamWidget : public QWidget {
     Q_OBJECT

@@ -8,18 +8,15 @@
 #include <QDragEnterEvent>
 #include <QFileDialog>
 #include <QFileInfo>
-#include <QMenuBar>
 #include <QMessageBox>
 #include <QMimeData>
+#include <QScreen>
 #include <QSettings>
 #include <QStatusBar>
-#include <QToolBar>
-#include <QToolButton>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <map>
 
-#include "geometry/object.h"
 #include "gui/state/command_line.h"
 #include "gui/state/open_path.h"
 #include "gui/view/object_view.h"
@@ -37,11 +34,22 @@ namespace searchlight::gui {
 namespace {
 
 // Counts up when docks change so much that an old layout would hide them.
-constexpr int layout_version = 1;
+constexpr int layout_version = 2;
+
+// Below it the object and code do not stand side by side.
+constexpr int room_for_code = 1400;
+
+// With the frame that a desktop puts around it. The screen of "offscreen" is nobody's.
+QSize sizeForScreen() {
+    const QSize wanted(1440, 900), frame(4, 32);
+    const QScreen* screen = QGuiApplication::primaryScreen();
+    if (!screen || QGuiApplication::platformName() == "offscreen") return wanted;
+    return wanted.boundedTo(screen->availableSize() - frame);
+}
 
 }  // namespace
 
-MainWindow::MainWindow(Desk& desk, QString settings_file, QWidget* parent)
+MainWindow::MainWindow(Desk& desk, QString settings_file, QSize size, QWidget* parent)
     : QMainWindow(parent), desk_(desk), settings_file_(std::move(settings_file)) {
     setObjectName("main");
     setWindowIcon(QIcon(":/searchlight.svg"));
@@ -51,7 +59,7 @@ MainWindow::MainWindow(Desk& desk, QString settings_file, QWidget* parent)
     setCorner(Qt::BottomLeftCorner, Qt::LeftDockWidgetArea);
     setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
     setAcceptDrops(true);
-    resize(1440, 900);
+    resize(size.isEmpty() ? sizeForScreen() : size);
 
     auto* middle = new QWidget(this);
     auto* column = new QVBoxLayout(middle);
@@ -59,7 +67,6 @@ MainWindow::MainWindow(Desk& desk, QString settings_file, QWidget* parent)
     column->setSpacing(0);
     view_ = new ObjectView(desk_, middle);
     auto* bar = new ViewBar(desk_, middle);
-    bar->setMinimumWidth(480);
     column->addWidget(bar);
     column->addWidget(view_, 1);
     setCentralWidget(middle);
@@ -96,8 +103,6 @@ void MainWindow::makeDocks() {
         const bool below = entry.area == Qt::BottomDockWidgetArea;
         body->setMinimumSize(below ? 420 : 260, below ? 150 : 200);
         dock->setWidget(body);
-        dock->toggleViewAction()->setShortcut(QKeySequence(QString::fromLatin1(entry.shortcut)));
-        dock->toggleViewAction()->setToolTip(tr(entry.doc));
         docks_.push_back(dock);
     }
 }
@@ -106,10 +111,12 @@ void MainWindow::placeDocks() {
     std::map<Qt::DockWidgetArea, QDockWidget*> first;
     for (std::size_t i = 0; i < docks_.size(); ++i) {
         const DockEntry& entry = docks()[i];
+        const bool narrow = entry.area == Qt::RightDockWidgetArea && width() < room_for_code;
+        const Qt::DockWidgetArea area = narrow ? Qt::BottomDockWidgetArea : entry.area;
         removeDockWidget(docks_[i]);
         docks_[i]->setFloating(false);
-        addDockWidget(entry.area, docks_[i]);
-        if (QDockWidget*& leader = first[entry.area]; leader)
+        addDockWidget(area, docks_[i]);
+        if (QDockWidget*& leader = first[area]; leader)
             tabifyDockWidget(leader, docks_[i]);
         else
             leader = docks_[i];
@@ -138,99 +145,13 @@ QDockWidget* MainWindow::dock(const QString& id) const {
     return nullptr;
 }
 
-void MainWindow::makeFileMenu() {
-    QMenu* file = menuBar()->addMenu(tr("&File"));
-    const auto add = [&](QMenu* menu, const char* icon, const QString& text, const QKeySequence& keys, auto&& call) {
-        QAction* action = menu->addAction(text, keys, this, call);
-        if (*icon) {
-            action->setIcon(desk_.theme.icon(icon));
-            action->setIconVisibleInMenu(false);
-            icons_.emplace_back(action, icon);
-        }
-        return action;
-    };
-    QAction* open = add(file, "open", tr("&Open..."), QKeySequence::Open,
-                        [this] { openPaths(QFileDialog::getOpenFileNames(this, tr("Open"), {}, openFilter())); });
-    QMenu* objects = file->addMenu(tr("Built-in &object"));
-    for (const std::string& id : builtInObjects())
-        objects->addAction(QString::fromStdString(id).replace('_', ' '), this, [this, id] {
-            desk_.workspace.edit(tr("Object"), {}, [&](State& state) { state.scene.object = id; });
-        });
-    QAction* save = add(file, "save", tr("&Save workspace"), QKeySequence::Save, [this] { this->save(); });
-    add(file, "", tr("Save workspace &as..."), QKeySequence::SaveAs, [this] { saveTo({}); });
-    file->addSeparator();
-    QAction* picture = add(file, "picture", tr("Save &picture..."), QKeySequence("Ctrl+P"), [this] { savePicture(); });
-    QAction* command =
-        add(file, "terminal", tr("&Copy as command line"), QKeySequence("Ctrl+Shift+C"), [this] { copyCommand(); });
-    file->addSeparator();
-    add(file, "", tr("&Quit"), QKeySequence::Quit, [this] { close(); });
-
-    QMenu* edit = menuBar()->addMenu(tr("&Edit"));
-    QAction* undo = desk_.workspace.undoStack().createUndoAction(this, tr("Undo"));
-    undo->setShortcut(QKeySequence::Undo);
-    QAction* redo = desk_.workspace.undoStack().createRedoAction(this, tr("Redo"));
-    redo->setShortcuts({QKeySequence(QKeySequence::Redo), QKeySequence("Ctrl+Y")});
-    edit->addActions({undo, redo});
-    for (const auto& [action, icon] : {std::pair{undo, "undo"}, std::pair{redo, "redo"}}) {
-        action->setIcon(desk_.theme.icon(icon));
-        action->setIconVisibleInMenu(false);
-        icons_.emplace_back(action, icon);
-    }
-    for (QAction* each : {open, save, undo, redo, picture, command}) tools_.push_back(each);
-}
-
-void MainWindow::makeViewMenu() {
-    QMenu* view = menuBar()->addMenu(tr("&View"));
-    for (QDockWidget* each : docks_) view->addAction(each->toggleViewAction());
-    view->addSeparator();
-    QAction* frame = view->addAction(tr("&Frame the object"), QKeySequence("F"), view_, &ObjectView::frame);
-    frame->setShortcutContext(Qt::WidgetShortcut);
-    view_->addAction(frame);
-    view->addAction(tr("&Reset layout"), this, &MainWindow::placeDocks);
-    QMenu* themes = view->addMenu(tr("&Theme"));
-    for (const char* name : {"Dark", "Light", "System"})
-        themes->addAction(tr(name), this, [this, name] { setTheme(QString(name).toLower()); });
-    QMenu* help = menuBar()->addMenu(tr("&Help"));
-    help->addAction(tr("&Welcome"), this, &MainWindow::showWelcome);
-    help->addAction(tr("&Keys"), QKeySequence("F1"), this, &MainWindow::showKeys);
-    help->addAction(tr("&About"), this, &MainWindow::about);
-}
-
-void MainWindow::makeToolBar() {
-    QToolBar* bar = addToolBar(tr("Tools"));
-    bar->setObjectName("tools");
-    bar->setMovable(false);
-    bar->setIconSize({18, 18});
-    for (std::size_t i = 0; i < tools_.size(); ++i) {
-        if (i == 2 || i == 4) bar->addSeparator();
-        bar->addAction(tools_[i]);
-    }
-    auto* space = new QWidget(bar);
-    space->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
-    bar->addWidget(space);
-    for (std::size_t i = 0; i < docks_.size(); ++i) {
-        QAction* action = docks_[i]->toggleViewAction();
-        action->setIcon(desk_.theme.icon(docks()[i].icon));
-        action->setIconVisibleInMenu(false);
-        icons_.emplace_back(action, docks()[i].icon);
-        bar->addAction(action);
-    }
-    bar->addSeparator();
-    QAction* theme = bar->addAction(desk_.theme.icon("theme"), tr("Light or dark"), this,
-                                    [this] { setTheme(desk_.theme.isDark() ? "light" : "dark"); });
-    icons_.emplace_back(theme, "theme");
-    for (QToolButton* button : bar->findChildren<QToolButton*>()) {
-        button->setFocusPolicy(Qt::TabFocus);
-        if (button->defaultAction()) button->setAccessibleName(button->defaultAction()->text().remove('&'));
-    }
-}
-
-void MainWindow::showDock(const QString& id) {
-    if (QDockWidget* found = dock(id)) {
-        found->show();
-        found->raise();
-        found->widget()->setFocus();
-    }
+bool MainWindow::showDock(const QString& id) {
+    QDockWidget* found = dock(id);
+    if (!found) return false;
+    found->show();
+    found->raise();
+    found->widget()->setFocus();
+    return true;
 }
 
 void MainWindow::showWelcome() {
@@ -255,7 +176,13 @@ void MainWindow::closeWelcome() {
 }
 
 void MainWindow::begin(const QString& way) {
-    if (way != "compare") return showDock(way);
+    if (way != "compare") {
+        showDock(way);
+        // Code below the object needs more room than a plot.
+        if (way == "editor" && dockWidgetArea(dock(way)) == Qt::BottomDockWidgetArea)
+            resizeDocks({dock(way)}, {height() / 2}, Qt::Vertical);
+        return;
+    }
     desk_.workspace.edit(tr("Compare with the reference"), {}, [](State& state) {
         state.options["view"]["compare"] = std::string("wipe");
         state.options["view"]["against"] = std::string("reference");
@@ -291,38 +218,6 @@ void MainWindow::setTheme(const QString& name) {
 QString MainWindow::rememberedTheme(const QString& settings_file) {
     if (settings_file.isEmpty()) return "dark";
     return QSettings(settings_file, QSettings::IniFormat).value("theme", "dark").toString();
-}
-
-void MainWindow::showKeys() {
-    auto* box = new QMessageBox(QMessageBox::NoIcon, tr("Keys"), {}, QMessageBox::Close, this);
-    box->setAttribute(Qt::WA_DeleteOnClose);
-    QString rows;
-    const auto row = [&](const QString& keys, const QString& what) {
-        rows += QString("<tr><td style=\"padding-right: 24px\"><b>%1</b></td><td>%2</td></tr>").arg(keys, what);
-    };
-    row(tr("Drag, arrows"), tr("turn the object"));
-    row(tr("Right drag, Ctrl + arrows"), tr("turn the light"));
-    row(tr("Middle drag, Shift + arrows"), tr("move the object"));
-    row(tr("Wheel, + and -"), tr("zoom"));
-    row(tr("F"), tr("frame the object"));
-    row(tr("Alt + left and right"), tr("move the wipe"));
-    for (QDockWidget* each : docks_)
-        row(each->toggleViewAction()->shortcut().toString(), tr("show or hide %1").arg(each->windowTitle()));
-    row("Ctrl+Z, Ctrl+Shift+Z", tr("undo, redo: everything but the layout"));
-    row("Ctrl+Shift+C", tr("copy as command line"));
-    row("Ctrl+P", tr("save picture"));
-    box->setText("<table>" + rows + "</table>");
-    box->open();
-}
-
-void MainWindow::about() {
-    auto* box = new QMessageBox(QMessageBox::NoIcon, tr("About Searchlight"), {}, QMessageBox::Close, this);
-    box->setAttribute(Qt::WA_DeleteOnClose);
-    box->setIconPixmap(QIcon(":/searchlight.svg").pixmap(64, 64));
-    box->setText(tr("<b>Searchlight %1</b><br>A laboratory for BSSRDFs.<br>Apache-2.0; Qt under the LGPL. Nothing is "
-                    "sent anywhere.")
-                     .arg(QApplication::applicationVersion()));
-    box->open();
 }
 
 void MainWindow::refreshTitle() {

@@ -12,16 +12,17 @@ class QAction;
 
 namespace searchlight::gui {
 
+struct DockEntry;
 class ObjectView;
-class NoticeBar;
 class Welcome;
 
 class MainWindow : public QMainWindow {
     Q_OBJECT
 
 public:
-    /// `settings_file`: where layout and theme are remembered; empty: nowhere.
-    explicit MainWindow(Desk& desk, QString settings_file = {}, QWidget* parent = nullptr);
+    /// `settings_file`: where layout and theme are remembered; empty: nowhere. An empty `size` is one that fits the
+    /// screen; the layout of the first start is made for it.
+    explicit MainWindow(Desk& desk, QString settings_file = {}, QSize size = {}, QWidget* parent = nullptr);
     ~MainWindow() override;
 
     /// "dark", "light" or "system", as last chosen; dark at first.
@@ -32,6 +33,9 @@ public:
 
     /// The dock of that id (docks.cpp); null: none.
     QDockWidget* dock(const QString& id) const;
+
+    /// Brings it to the front, with the focus. False: there is none of that id.
+    bool showDock(const QString& id);
 
     ObjectView& view() { return *view_; }
 
@@ -44,8 +48,8 @@ private:
     void makeDocks();
     void makeFileMenu();
     void makeViewMenu();
+    QAction* makeDockAction(const DockEntry& entry, QDockWidget* dock);
     void makeToolBar();
-    void showDock(const QString& id);
     void begin(const QString& way);
     void savePicture();
     void copyCommand();
@@ -68,6 +72,7 @@ private:
     std::vector<QAction*> tools_;                      ///< of the tool bar, from the left
     std::vector<std::pair<QAction*, QString>> icons_;  ///< drawn again when the theme changes
     std::vector<QDockWidget*> docks_;                  ///< in the order of docks()
+    std::vector<QAction*> dock_actions_;               ///< in the same order
 };
 
 }  // namespace searchlight::gui

@@ -31,13 +31,17 @@ TaskBar::TaskBar(Desk& desk, QWidget* parent) : QWidget(parent), desk_(desk) {
     text_ = new QLabel(this);
     text_->setProperty("role", "muted");
     bar_ = new QProgressBar(this);
+    bar_->setObjectName("task.bar");
     bar_->setRange(0, 1000);
     bar_->setTextVisible(false);
     bar_->setFixedWidth(160);
     bar_->setAccessibleName(tr("Progress"));
     cancel_ = new QToolButton(this);
+    cancel_->setObjectName("task.cancel");
     cancel_->setIcon(desk.theme.icon("close"));
     cancel_->setIconSize({12, 12});
+    // No higher than a line of text: it stands at the edge of the window all the time.
+    cancel_->setFixedSize(22, 22);
     cancel_->setToolTip(tr("Cancel"));
     cancel_->setAccessibleName(tr("Cancel the running task"));
     for (QWidget* each : {static_cast<QWidget*>(text_), static_cast<QWidget*>(bar_), static_cast<QWidget*>(cancel_)}) {

@@ -10,6 +10,7 @@
 #include <QStyleFactory>
 #include <QSvgRenderer>
 #include <QToolTip>
+#include <algorithm>
 #include <cstdlib>
 
 #include "draw/palette.h"
@@ -197,11 +198,14 @@ QIcon Theme::icon(const QString& name) const {
     return QIcon(new SvgIcon(":/icons/" + name + ".svg", colors_.text, disabled, colors_.accent));
 }
 
+QColor Theme::onPanel(const QColor& color) const {
+    if (!dark_ || color.lightnessF() >= 0.6F) return color;
+    return QColor::fromHslF(color.hslHueF(), std::min(color.hslSaturationF(), 0.85F), 0.6F);
+}
+
 QColor Theme::seriesColor(int index) const {
     const std::string_view name = searchlight::seriesColor(index);
-    const QColor color(QString::fromLatin1(name.data(), static_cast<qsizetype>(name.size())));
-    // Blue and vermilion of the palette for paper are too dark for a dark panel.
-    return dark_ && color.lightnessF() < 0.42F ? color.lighter(145) : color;
+    return onPanel(QColor(QString::fromLatin1(name.data(), static_cast<qsizetype>(name.size()))));
 }
 
 }  // namespace searchlight::gui

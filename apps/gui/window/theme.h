@@ -55,7 +55,9 @@ public:
     /// One of resources/icons/NAME.svg, in the colours of the theme.
     QIcon icon(const QString& name) const;
 
-    /// The colour of a series, as figures on paper have it (draw/drawing.h), lightened where the theme is dark.
+    /// A colour of figures on paper, lightened where the theme is dark.
+    QColor onPanel(const QColor& color) const;
+    /// The colour of a series, as the plot has it.
     QColor seriesColor(int index) const;
 
 Q_SIGNALS:

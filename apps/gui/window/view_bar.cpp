@@ -10,6 +10,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
+#include "gui/widgets/flow_row.h"
 #include "gui/widgets/number_slider.h"
 #include "gui/widgets/segments.h"
 #include "gui/window/theme.h"
@@ -47,12 +48,19 @@ ViewBar::ViewBar(Desk& desk, QWidget* parent) : QWidget(parent), desk_(desk) {
     auto* column = new QVBoxLayout(this);
     column->setContentsMargins(Space::s, 0, Space::s, Space::s);
     column->setSpacing(Space::xs);
-    auto* first = new QHBoxLayout;
-    auto* second = new QHBoxLayout;
-    for (QHBoxLayout* row : {first, second}) {
-        row->setSpacing(Space::s);
-        column->addLayout(row);
-    }
+    auto* first = new FlowRow;
+    auto* second = new FlowRow;
+    column->addLayout(first);
+    column->addLayout(second);
+    // What belongs together stays in one row.
+    const auto group = [this](FlowRow* row) {
+        auto* box = new QWidget(this);
+        auto* inner = new QHBoxLayout(box);
+        inner->setContentsMargins(0, 0, 0, 0);
+        inner->setSpacing(Space::s);
+        row->addWidget(box);
+        return inner;
+    };
 
     model_ = makeBox(tr("Model"), tr("The model that the object is rendered with"));
     connect(model_, &QComboBox::activated, this, [this](int index) {
@@ -72,25 +80,29 @@ ViewBar::ViewBar(Desk& desk, QWidget* parent) : QWidget(parent), desk_(desk) {
             state.technique_options.clear();
         });
     });
-    first->addWidget(model_, 2);
-    first->addWidget(technique_, 1);
+    QHBoxLayout* made_with = group(first);
+    made_with->addWidget(model_, 3);
+    made_with->addWidget(technique_, 2);
     compare_ = new Segments(tr("Compare"), {tr("Alone"), tr("Wipe"), tr("Difference")}, this);
     connect(compare_, &Segments::chosen, this, [this](int chosen) {
         desk_.workspace.setOption(tr("Compare"), "view", "compare", std::string(compare_values[chosen]));
         desk_.workspace.endGesture();
     });
-    first->addWidget(compare_);
+    QHBoxLayout* beside = group(first);
+    beside->addWidget(compare_);
     against_ = makeBox(tr("Compared with"), tr("The reference, another model or another technique"));
     connect(against_, &QComboBox::activated, this, [this] {
         desk_.workspace.setOption(tr("Compare with"), "view", "against",
                                   against_->currentData().toString().toStdString());
         desk_.workspace.endGesture();
     });
-    first->addWidget(against_, 2);
+    beside->addWidget(against_, 1);
 
-    second->addWidget(makeOption("layer", tr("Layer")));
-    second->addWidget(makeOption("channel", tr("Channel")));
-    second->addWidget(makeOption("curve", tr("Tone curve")));
+    QHBoxLayout* shown = group(second);
+    shown->addWidget(makeOption("layer", tr("Layer")));
+    shown->addWidget(makeOption("channel", tr("Channel")));
+    shown->addWidget(makeOption("curve", tr("Tone curve")));
+    shown->addStretch(1);
     auto_ = new QToolButton(this);
     auto_->setText(tr("Auto"));
     auto_->setCheckable(true);
@@ -115,10 +127,10 @@ ViewBar::ViewBar(Desk& desk, QWidget* parent) : QWidget(parent), desk_(desk) {
     });
     for (NumberSlider* each : {exposure_, difference_})
         connect(each, &NumberSlider::finished, &desk_.workspace, &Workspace::endGesture);
-    second->addStretch(1);
-    second->addWidget(auto_);
-    second->addWidget(exposure_, 2);
-    second->addWidget(difference_, 2);
+    QHBoxLayout* brightness = group(second);
+    brightness->addWidget(auto_);
+    brightness->addWidget(exposure_, 1);
+    brightness->addWidget(difference_, 1);
 
     connect(&desk_.workspace, &Workspace::changed, this, [this](Change change) {
         if (change.any({Part::models, Part::active, Part::technique, Part::options})) refresh();
@@ -131,8 +143,8 @@ QComboBox* ViewBar::makeBox(const QString& name, const QString& doc) {
     auto* box = new QComboBox(this);
     box->setAccessibleName(name);
     box->setToolTip(doc);
-    box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-    box->setMinimumContentsLength(6);
+    box->setSizeAdjustPolicy(QComboBox::AdjustToContents);
+    box->setMinimumWidth(72);
     box->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
     return box;
 }
@@ -141,7 +153,7 @@ QComboBox* ViewBar::makeOption(const char* option, const QString& name) {
     const auto section = std::ranges::find(sections(), "view", &Section::name);
     const Param& param = findParam(section->options, option, "option");
     QComboBox* box = makeBox(name, QString::fromStdString(param.doc));
-    box->setMaximumWidth(112);
+    box->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
     for (const std::string& choice : param.choices) {
         QString text = choice == "srgb" ? QString("sRGB") : QString::fromStdString(choice);
         text[0] = choice == "srgb" ? text[0] : text[0].toUpper();

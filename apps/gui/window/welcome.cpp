@@ -7,6 +7,8 @@
 #include <QPushButton>
 #include <QToolButton>
 #include <QVBoxLayout>
+#include <utility>
+#include <vector>
 
 #include "gui/window/theme.h"
 
@@ -24,18 +26,18 @@ Welcome::Welcome(Desk& desk, QWidget* host) : QFrame(host), host_(host) {
     title->setWordWrap(true);
     head->addWidget(title, 1);
     auto* close = new QToolButton(this);
-    close->setIcon(desk.theme.icon("close"));
     close->setIconSize({12, 12});
     close->setAccessibleName(tr("Close the welcome"));
     close->setToolTip(tr("Close (Esc)"));
     connect(close, &QToolButton::clicked, this, &Welcome::closed);
     head->addWidget(close, 0, Qt::AlignTop);
     column->addLayout(head);
-    auto* row = new QVBoxLayout;
-    row->setSpacing(Space::s);
+    ways_ = new QBoxLayout(QBoxLayout::TopToBottom);
+    ways_->setSpacing(Space::s);
+    std::vector<std::pair<QToolButton*, QString>> icons{{close, "close"}};
     const struct {
         const char *way, *icon, *title, *doc;
-    } ways[] = {{"material", "material", "Explore a material", "Sliders, 51 measured ones"},
+    } ways[] = {{"material", "material", "Explore a material", "Measured ones, and sliders"},
                 {"editor", "editor", "Write a model", "Forty lines of GLSL"},
                 {"compare", "wipe", "Compare with the reference", "Monte Carlo beside the model"}};
     for (const auto& way : ways) {
@@ -44,7 +46,7 @@ Welcome::Welcome(Desk& desk, QWidget* host) : QFrame(host), host_(host) {
         button->setProperty("first", true);
         button->setProperty("last", true);
         button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
-        button->setIcon(desk.theme.icon(way.icon));
+        icons.emplace_back(button, way.icon);
         button->setIconSize({20, 20});
         button->setMinimumHeight(40);
         button->setText(tr(way.title));
@@ -52,18 +54,33 @@ Welcome::Welcome(Desk& desk, QWidget* host) : QFrame(host), host_(host) {
         button->setAccessibleDescription(tr(way.doc));
         button->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
         connect(button, &QToolButton::clicked, this, [this, name = way.way] { emit chosen(name); });
-        row->addWidget(button);
+        ways_->addWidget(button);
     }
-    column->addLayout(row);
+    column->addLayout(ways_);
+    const auto draw = [&theme = desk.theme, icons] {
+        for (const auto& [button, name] : icons) button->setIcon(theme.icon(name));
+    };
+    draw();
+    connect(&desk.theme, &Theme::changed, this, draw);
     host_->installEventFilter(this);
     place();
 }
 
 void Welcome::place() {
-    // Beside the object, not over it.
-    resize(std::min(256, std::max(host_->width() - 2 * Space::l, 160)), 10);
+    // Beside the object, which fills some two thirds of the height in the middle; where there is no room, below it, if
+    // there is room for three buttons in a row.
+    constexpr int beside_width = 256;
+    constexpr int strip_width = 600;
+    const bool beside =
+        host_->width() / 2 - host_->height() / 3 >= beside_width + Space::l || host_->width() < strip_width;
+    ways_->setDirection(beside ? QBoxLayout::TopToBottom : QBoxLayout::LeftToRight);
+    const int widest = beside ? beside_width : strip_width + 40;
+    resize(std::min(widest, std::max(host_->width() - 2 * Space::l, 160)), 10);
     resize(width(), layout()->heightForWidth(width()) > 0 ? layout()->heightForWidth(width()) : sizeHint().height());
-    move(host_->width() - width() - Space::l, std::max(Space::xl, (host_->height() - height()) / 2));
+    if (beside)
+        move(host_->width() - width() - Space::l, std::max(Space::xl, (host_->height() - height()) / 2));
+    else
+        move((host_->width() - width()) / 2, host_->height() - height() - 2 * Space::l);
 }
 
 bool Welcome::eventFilter(QObject* watched, QEvent* event) {

@@ -5,6 +5,8 @@
 
 #include "gui/window/desk.h"
 
+class QBoxLayout;
+
 namespace searchlight::gui {
 
 class Welcome : public QFrame {
@@ -25,6 +27,7 @@ protected:
 private:
     void place();
     QWidget* host_;
+    QBoxLayout* ways_;
 };
 
 }  // namespace searchlight::gui
