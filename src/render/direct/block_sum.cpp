@@ -11,7 +11,6 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/direct/block_sum.cpp"
-// As in half_space_walk.cpp.
 #include <hwy/foreach_target.h>
 
 #include "render/exitance/kernels-inl.h"
