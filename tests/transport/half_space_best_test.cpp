@@ -244,7 +244,7 @@ TEST(ImportanceTable, IsPositiveBoundedAndFallsWithDepth) {
     constexpr auto n = static_cast<std::size_t>(ImportanceTable::kCells);
     for (const HalfSpaceWalk& walk : {HalfSpaceWalk{.absorbed = 0}, HalfSpaceWalk{.absorbed = 1 - 1e-9},
                                       HalfSpaceWalk{.absorbed = 0.01, .g = -0.9}}) {
-        const ImportanceTable table = makeImportanceTable(walk, edges);
+        const ImportanceTable table = makeImportanceTable(walk, edges, tuningFor(walk));
         ASSERT_EQ(table.value.size(), n * n);
         for (const float value : table.value) EXPECT_TRUE(value > 0 && value <= 1e3f) << value;
         for (std::size_t row = n / 2; row + 1 < n; ++row) EXPECT_LE(table.value[(row + 1) * n], table.value[row * n]);

@@ -239,7 +239,7 @@ HalfSpaceResult walkHalfSpace(const HalfSpaceProblem& problem, const HalfSpaceOp
                              options.grid_extent_mm * sigma_t, scaled(options.strip_edges_mm, sigma_t),
                              options.strip_half_width_mm * sigma_t};
     std::optional<BestPlan> best;
-    if (result.estimator == Estimator::best) best.emplace(walk, edges);
+    if (result.estimator == Estimator::best) best.emplace(walk, edges, tuningFor(walk));
     ChunkedWalk job;
     job.plan = planChunks(options.walks, options.control.until_error > 0);
     if (options.control.state && !options.control.state->empty()) job.plan.size = options.control.state->chunk_size;

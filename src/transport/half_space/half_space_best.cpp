@@ -5,7 +5,7 @@
 // without bound), and comes with its opposite azimuth; 16 lanes share it (ways_out-inl.h). What crosses the surface
 // later was counted already: only the reflected part goes on.
 //
-// Importance: weight times importance below 0.6 meets a roulette, above 2 the walk is split (importance.h).
+// Importance: weight times importance below 0.8 meets a roulette, above 2 the walk is split (importance.h).
 //
 // Order 1 is exact at normal incidence.
 //
@@ -25,6 +25,7 @@
 #include <hwy/foreach_target.h>
 
 #include "transport/half_space/ways_out-inl.h"
+#include "transport/walk/lane_foresee-inl.h"
 #include "transport/walk/lane_walk-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -38,8 +39,10 @@ constexpr std::size_t kCopies = 16;
 constexpr std::size_t kFlushSteps = 256;
 // Without absorption a walk has no mean length: beyond so many collisions its importance falls as their inverse.
 constexpr std::int32_t kFadingWalk = 1 << 13;
-constexpr float kRoulette = 0.6f, kSplit = 2.0f;
+constexpr float kSplit = 2.0f;
 constexpr float kMostParts = 16;
+// A flight that is drawn longer is so many times as long.
+constexpr double kStretch = 3;
 static_assert(kSplit >= 2, "a split makes at least two parts");
 
 struct alignas(64) BestLanes {
@@ -65,32 +68,6 @@ struct Waiting {
     float x, y, z, u, v, w, weight;
     std::int32_t order, parts;
 };
-
-// exp(-x) for x in [0, 87], relative error 2e-7; constant beyond.
-HWY_INLINE FloatV expNegative(FloatV x) {
-    const Float d;
-    const FloatV y = hn::Neg(hn::Min(x, hn::Set(d, 87.0f)));
-    const FloatV k = hn::Round(hn::Mul(y, hn::Set(d, 1.44269504f)));
-    FloatV f = hn::NegMulAdd(k, hn::Set(d, 0.693359375f), y);  // log 2 in two parts
-    f = hn::NegMulAdd(k, hn::Set(d, -2.12194440e-4f), f);
-    // Taylor: |f| < 0.347 leaves 1.2e-7.
-    FloatV p = hn::Set(d, 1 / 720.0f);
-    p = hn::MulAdd(p, f, hn::Set(d, 1 / 120.0f));
-    p = hn::MulAdd(p, f, hn::Set(d, 1 / 24.0f));
-    p = hn::MulAdd(p, f, hn::Set(d, 1 / 6.0f));
-    p = hn::MulAdd(p, f, hn::Set(d, 0.5f));
-    p = hn::MulAdd(p, f, hn::Set(d, 1.0f));
-    p = hn::MulAdd(p, f, hn::Set(d, 1.0f));
-    const IntV exponent = hn::ShiftLeft<23>(hn::ConvertTo(Int(), k));
-    return hn::BitCast(d, hn::Add(hn::BitCast(Int(), p), exponent));
-}
-
-// (0, 1), finer towards 0, so that rare survivals keep their probability.
-HWY_INLINE FloatV fineUniform(IntV bits) {
-    const Float d;
-    const IntV k = hn::And(bits, hn::Set(Int(), 0x7FFFFFFF));
-    return hn::MulAdd(hn::ConvertTo(d, k), hn::Set(d, 0x1p-31f), hn::Set(d, 0x1p-32f));
-}
 
 template <bool kFresnel, bool kIsotropic, bool kForesees>
 class BestWalker {
@@ -185,7 +162,8 @@ private:
             pack.direction = henyeyGreenstein(pack.direction, set(plan_.walk.g),
                                               set(0.5 * (1 - plan_.walk.g) * (1 - plan_.walk.g)), s, phi);
 
-        const FloatV length = exponential(pack.random.next());
+        FloatV length = exponential(pack.random.next());
+        if (plan_.tuning.stretched > 0) stretch(pack, length);
         pack.x = hn::MulAdd(length, pack.direction.u, pack.x);
         pack.y = hn::MulAdd(length, pack.direction.v, pack.y);
         const FloatV z = hn::MulAdd(length, pack.direction.w, pack.z);
@@ -208,7 +186,7 @@ private:
 
         const FloatV importance = importanceOf(pack);
         const FloatV value = hn::Mul(pack.weight, importance);
-        const FloatM low = hn::Lt(value, hn::Set(d, kRoulette));
+        const FloatM low = hn::Lt(value, set(plan_.tuning.roulette));
         const FloatM lives = hn::Lt(luck, value);
         pack.weight = hn::IfThenElse(low, hn::IfThenElseZero(lives, hn::Div(one, importance)), pack.weight);
         store(pack, at);
@@ -217,19 +195,17 @@ private:
         split_ |= bitsOf(hn::Gt(value, hn::Set(d, kSplit)), at);
     }
 
-    static HWY_INLINE std::uint64_t bitsOf(FloatM mask, std::size_t at) {
-        std::uint8_t bytes[8] = {};
-        hn::StoreMaskBits(Float(), mask, bytes);
-        std::uint64_t bits = 0;
-        std::memcpy(&bits, bytes, sizeof bits);
-        return (bits & ((std::uint64_t{1} << hn::Lanes(Float())) - 1)) << at;
-    }
-
-    static HWY_INLINE FloatM maskOf(std::uint64_t bits, std::size_t at) {
-        bits >>= at;
-        std::uint8_t bytes[8];
-        std::memcpy(bytes, &bits, sizeof bits);
-        return hn::LoadMaskBits(Float(), bytes);
+    // Draws some flights longer; the weight makes up for it.
+    HWY_INLINE void stretch(BestPack& pack, FloatV& length) const {
+        const Float d;
+        const FloatV part = set(plan_.tuning.stretched), times = set(kStretch);
+        const FloatM longer = hn::Lt(uniform(pack.random.next()), part);
+        length = hn::IfThenElse(longer, hn::Mul(times, length), length);
+        // exp(-s) over the density of the mixture, with nothing that overflows.
+        const FloatV natural = expNegative(length), slow = expNegative(hn::Mul(length, set(1 / kStretch)));
+        const FloatV density =
+            hn::MulAdd(hn::Sub(hn::Set(d, 1.0f), part), natural, hn::Mul(hn::Mul(part, set(1 / kStretch)), slow));
+        pack.weight = hn::Mul(pack.weight, hn::Div(natural, density));
     }
 
     HWY_INLINE FloatV reflectance(FloatV cosine) const { return fresnel(cosine, set(plan_.walk.eta)).reflectance; }
@@ -271,7 +247,7 @@ private:
         const FloatV r2 = hn::MulAdd(x, x, hn::Mul(y, y));
         const hn::Mask<Int> first = hn::Eq(pack.order, hn::Set(di, 1));
         const FloatM is_first = hn::RebindMask(d, first);
-        IntV slot = slotOf(r2);
+        IntV slot = slotOf(plan_.bins, r2);
         if (plan_.single)
             weight = hn::IfThenZeroElse(is_first, weight);
         else
@@ -296,25 +272,6 @@ private:
         const Float d;
         float* moment = lanes_.moments[which] + at;
         hn::Store(hn::Add(hn::Load(d, moment), value), d, moment);
-    }
-
-    HWY_INLINE IntV slotOf(FloatV r2) const {
-        const Float d;
-        const Int di;
-        const LaneBins& bins = plan_.bins;
-        if (bins.per_length > 0) {
-            const FloatV place = hn::Mul(hn::Sqrt(r2), hn::Set(d, bins.per_length));
-            const FloatV most = hn::Set(d, static_cast<float>(bins.next_edge.size() - 2));
-            return hn::Add(hn::ConvertTo(di, hn::Min(place, most)), hn::Set(di, 1));
-        }
-        const IntV last = hn::Set(di, static_cast<int>(bins.first_slot.size()) - 1);
-        const IntV cell = hn::Sub(hn::ShiftRightSame(hn::BitCast(di, r2), bins.shift), hn::Set(di, bins.first_cell));
-        IntV slot = hn::GatherIndex(di, bins.first_slot.data(), hn::Min(hn::Max(cell, hn::Zero(di)), last));
-        for (int i = 0; i < bins.steps; ++i) {
-            const FloatM above = hn::Ge(r2, hn::GatherIndex(d, bins.next_edge.data(), slot));
-            slot = hn::Sub(slot, hn::VecFromMask(di, hn::RebindMask(di, above)));
-        }
-        return slot;
     }
 
     HWY_INLINE FloatV importanceOf(const BestPack& pack) const {

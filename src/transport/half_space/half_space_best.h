@@ -2,7 +2,6 @@
 // there, and it is followed only where that still matters.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -12,30 +11,22 @@
 #include "transport/half_space/half_space_walk.h"
 #include "transport/half_space/importance.h"
 #include "transport/half_space/single_scattering.h"
+#include "transport/walk/lane_bins.h"
 #include "transport/walk/random.h"
 #include "transport/walk/tally.h"
 
 namespace searchlight {
 
-/// RadialBins for float lanes: the same slots, edges rounded to float.
-struct LaneBins {
-    int shift = 0;  ///< a cell of the table is a run of floats that share their bits above
-    std::int32_t first_cell = 0;
-    std::int32_t steps = 0;                ///< the most edges within one cell
-    std::vector<std::int32_t> first_slot;  ///< per cell: the lowest slot that meets it
-    std::vector<float> next_edge;          ///< per slot: the squared edge that ends it; infinity for the last
-    float per_length = 0;                  ///< of bins that are all alike and begin at 0; otherwise 0
-};
-
 /// What all chunks of a job share. Lengths are in mean free paths.
 struct BestPlan {
-    BestPlan(const HalfSpaceWalk& walk, std::span<const double> edges);
+    BestPlan(const HalfSpaceWalk& walk, std::span<const double> edges, const BestTuning& tuning);
 
     /// The radius that 100 of so many walks would reach without being led. Farther out few flights carry most of the
     /// light, and the scatter of the chunks may have seen none of them.
     double reach(std::uint64_t walks) const;
 
     HalfSpaceWalk walk;
+    BestTuning tuning;
     bool foresees = true;  ///< tallies expected escapes; otherwise what crosses the surface
     ImportanceTable importance;
     LaneBins bins;

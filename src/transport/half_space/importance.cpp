@@ -6,43 +6,11 @@
 #include <cstdint>
 #include <numbers>
 
-#include "transport/walk/fresnel.h"
+#include "transport/walk/diffusion.h"
 
 namespace searchlight {
 
 namespace {
-
-// What the total counts beside the rings: more would follow walks into depths from which no bin hears of them.
-constexpr double kTotal = 0.02;
-
-// Rings count by this power of their radius: what is far is harder to know.
-constexpr double kFar = 0.4;
-
-// Rate at which light dies out far from its source, per reduced mean free path: the largest kappa in
-// albedo = kappa / atanh(kappa), exact for isotropic scattering, and near enough for others.
-double asymptoticDecay(double absorbed) {
-    double low = 0, high = 1;
-    for (int i = 0; i < 60; ++i) {
-        const double kappa = 0.5 * (low + high);
-        // 1 - kappa / atanh(kappa) grows from 0 to 1; its series keeps digits near 0.
-        const double lost = kappa < 1e-3 ? kappa * kappa / 3 : 1 - kappa / std::atanh(std::min(kappa, 1 - 1e-16));
-        (lost < absorbed ? low : high) = kappa;
-    }
-    return low;
-}
-
-// Distance above the surface at which the diffuse flux seems to vanish, in reduced mean free paths: 2 A D with the
-// moments of the Fresnel reflectance ([dEonIrving2011] appendix).
-double extrapolation(double eta) {
-    double first = 0, second = 0;
-    constexpr int points = 256;
-    for (int i = 0; i < points; ++i) {
-        const double c = (i + 0.5) / points, reflected = internalReflectance(eta, c);
-        first += 2 * reflected * c / points;
-        second += 3 * reflected * c * c / points;
-    }
-    return 2.0 / 3 * (1 + second) / (1 - first);
-}
 
 struct Dipole {
     double decay, extrapolation;
@@ -70,7 +38,15 @@ struct Dipole {
 
 }  // namespace
 
-ImportanceTable makeImportanceTable(const HalfSpaceWalk& walk, std::span<const double> edges) {
+BestTuning tuningFor(const HalfSpaceWalk& walk) {
+    BestTuning tuning;
+    // Where most is absorbed, what leaves far out comes from one or two long flights.
+    if (walk.absorbed > 0.5) tuning.stretched = 0.5;
+    return tuning;
+}
+
+ImportanceTable makeImportanceTable(const HalfSpaceWalk& walk, std::span<const double> edges,
+                                    const BestTuning& tuning) {
     // Lengths in reduced mean free paths from here on.
     const double reduced_rate = 1 - walk.g * (1 - walk.absorbed);
     const Dipole dipole{asymptoticDecay(walk.absorbed / reduced_rate), extrapolation(walk.eta)};
@@ -84,7 +60,7 @@ ImportanceTable makeImportanceTable(const HalfSpaceWalk& walk, std::span<const d
     for (int k = 0; k < rings; ++k) {
         radii[k] = low * std::pow(high / low, static_cast<double>(k) / (rings - 1));
         reference[k] = dipole.ring(radii[k], 0, 1);
-        parts += part[k] = std::pow(radii[k], kFar);
+        parts += part[k] = std::pow(radii[k], tuning.far);
     }
 
     ImportanceTable table;
@@ -102,10 +78,10 @@ ImportanceTable makeImportanceTable(const HalfSpaceWalk& walk, std::span<const d
         for (const double rho : centres) {
             // Root mean square over the rings: then the sum of their relative variances is small. The total counts a
             // little, too: without it what leaves beyond the bins would rest on a few heavy walks.
-            const double leaves = kTotal * std::exp(-dipole.decay * z);
+            const double leaves = tuning.total * std::exp(-dipole.decay * z);
             double square = leaves * leaves;
             for (int k = 0; k < rings; ++k) {
-                const double gain = dipole.ring(radii[k], rho, z + 0.25) / reference[k];
+                const double gain = dipole.ring(radii[k], rho, z + tuning.depth) / reference[k];
                 square += part[k] / parts * gain * gain;
             }
             // Bounds keep weights, their inverse, from running away.

@@ -21,7 +21,19 @@ struct ImportanceTable {
     std::vector<float> value;  ///< kCells x kCells, row z, column rho
 };
 
+/// What is chosen rather than derived; bench/tuning_bench measures what other choices are worth.
+struct BestTuning {
+    double roulette = 0.8;  ///< weight times importance below meets it
+    double far = 0.4;       ///< rings count by this power of their radius: what is far is harder to know
+    double total = 0.02;    ///< what the total counts beside the rings
+    double depth = 0.25;    ///< a walk is as important as a source so far below it, in reduced mean free paths
+    double stretched = 0;   ///< part of the flights that are drawn longer
+};
+
+/// What serves a medium best.
+BestTuning tuningFor(const HalfSpaceWalk& walk);
+
 /// For bins with these edges, ascending, in mean free paths.
-ImportanceTable makeImportanceTable(const HalfSpaceWalk& walk, std::span<const double> edges);
+ImportanceTable makeImportanceTable(const HalfSpaceWalk& walk, std::span<const double> edges, const BestTuning& tuning);
 
 }  // namespace searchlight

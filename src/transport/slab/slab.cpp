@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/text.h"
+#include "transport/slab/slab_best.h"
 #include "transport/slab/slab_gl.h"
 #include "transport/slab/slab_walk.h"
 #include "transport/walk/chunks.h"
@@ -192,15 +193,16 @@ std::vector<Occupied> occupiedDepths(const SlabProblem& problem, const SlabOptio
 // From sums over chunks to the numbers of the result.
 class Reduction {
 public:
-    /// `walks` behind the sums; 0: no light came into the slab, and all is exactly 0.
+    /// `walks` behind the sums; 0: no light came into the slab, and all is exactly 0. `best`: who walked, or null.
     Reduction(const SlabProblem& problem, const SlabOptions& options, const SlabLayout& layout, double transmitted,
-              const BatchRatios& sums, std::uint64_t walks)
+              const BatchRatios& sums, std::uint64_t walks, const SlabBestPlan* best = nullptr)
         : problem_(problem),
           options_(options),
           layout_(layout),
           transmitted_(transmitted),
           sums_(sums),
-          walks_(walks) {}
+          walks_(walks),
+          best_(best) {}
 
     void finish(SlabResult& result) const {
         result.R = total(SlabLayout::R_scattered);
@@ -241,12 +243,23 @@ public:
     }
 
 private:
+    // Whether exits are foreseen there, with weights far below 1.
+    bool foreseen(std::size_t slot) const {
+        return best_ != nullptr && (slot < layout_.first(SlabLayout::A_total) ||
+                                    (slot >= layout_.first(SlabLayout::R_r) && slot < layout_.first(SlabLayout::R_a)));
+    }
+
     // Per unit incident flux. The scatter of batches without an event would be 0; one event is the least that can be
     // said.
     Estimate flux(std::size_t slot, double one_event) const {
         if (walks_ == 0) return {};
         Estimate e = sums_.estimate(slot, walks_);
-        e.standard_error = std::max(e.standard_error, one_event / static_cast<double>(walks_));
+        double least = one_event / static_cast<double>(walks_);
+        if (foreseen(slot))
+            least = e.mean == 0 ? least : 0;
+        else if (best_ != nullptr)
+            least /= best_->beside;
+        e.standard_error = std::max(e.standard_error, least);
         return {transmitted_ * e.mean, transmitted_ * e.standard_error, e.count};
     }
 
@@ -310,6 +323,7 @@ private:
     double transmitted_;
     const BatchRatios& sums_;
     std::uint64_t walks_;
+    const SlabBestPlan* best_;
 };
 
 // Whether what is reflected, transmitted and absorbed is known well enough, where there is any.
@@ -357,6 +371,15 @@ SlabResult walkSlab(const SlabProblem& problem, const SlabOptions& options, Obse
     }
 
     const SlabWalk walk = walkOf(problem, entry);
+    std::optional<SlabBestPlan> best;
+    if (options.estimator == SlabEstimator::best && !options.gl && !options.maps && options.grid == 0 &&
+        bestServes(walk)) {
+        best.emplace(walk, options.edges_mm, layout);
+        if (best->worthwhile)
+            result.estimator = SlabEstimator::best;
+        else
+            best.reset();
+    }
     ChunkedWalk job;
     job.plan = planChunks(options.walks, options.control.until_error > 0);
     if (options.control.state && !options.control.state->empty()) job.plan.size = options.control.state->chunk_size;
@@ -373,7 +396,8 @@ SlabResult walkSlab(const SlabProblem& problem, const SlabOptions& options, Obse
         job, {BatchRatios(layout.slots())}, SlabTally(layout),
         [&](std::uint64_t chunk, std::uint64_t walks, SlabTally& tally) {
             if (device) return device->walkChunk(chunk, tally);
-            return walkSlabChunk(walk, options.seed, chunk, walks, tally);
+            return best ? walkSlabBestChunk(*best, options.seed, chunk, walks, tally)
+                        : walkSlabChunk(walk, options.seed, chunk, walks, tally);
         },
         [](const SlabTally& chunk, std::uint64_t walks, std::vector<BatchRatios>& sums) {
             sums[0].add(chunk.flux(), static_cast<double>(walks));
@@ -383,7 +407,8 @@ SlabResult walkSlab(const SlabProblem& problem, const SlabOptions& options, Obse
     result.walks = walked.walks;
     result.collisions = walked.collisions;
     result.interrupted = walked.interrupted;
-    Reduction(problem, options, layout, 1 - entry.specular, walked.sums[0], walked.walks).finish(result);
+    Reduction(problem, options, layout, 1 - entry.specular, walked.sums[0], walked.walks, best ? &*best : nullptr)
+        .finish(result);
     return result;
 }
 

@@ -35,6 +35,12 @@ struct SlabLayer {
     bool operator==(const SlabLayer&) const = default;
 };
 
+/// As Estimator of the half-space.
+enum class SlabEstimator {
+    analogue,
+    best,  ///< R, T, R(r) and T(r) with less noise (slab_best.h); angles, absorption, depths from analogue walks beside
+};
+
 struct SlabProblem {
     double n_above = 1, n_below = 1;
     std::vector<SlabLayer> layers;  ///< from the top, where the beam comes from
@@ -55,8 +61,11 @@ struct SlabOptions {
     int grid = 0;                  ///< cells per side of R(x, y) and T(x, y); 0: none
     double grid_extent_mm = 0;     ///< the square is [-extent, extent]^2
     int threads = 0;               ///< 0: all
-    gl::Context* gl = nullptr;     ///< walk there, counting the collisions that absorb alone; null: on the CPU
-    WalkControl control;           ///< until_error: of R, T and A, those above 0
+    /// Grids, maps, clear layers and phase functions that are tables are always walked by the analogue, and slabs of
+    /// which a pilot finds that it knows R(r) better.
+    SlabEstimator estimator = SlabEstimator::analogue;
+    gl::Context* gl = nullptr;  ///< walk there, counting the collisions that absorb alone; null: on the CPU
+    WalkControl control;        ///< until_error: of R, T and A, those above 0
 };
 
 struct SlabSeries {
@@ -85,6 +94,7 @@ struct SlabResult {
     SlabSeries fluence_rz;     ///< 1/mm^2
     SlabSeries R_xy, T_xy;     ///< 1/mm^2, scattered; row-major over y then x; empty without a grid
     std::vector<double> flux;  ///< mean per slot of slabLayout, for writers that need what the series leave out
+    SlabEstimator estimator = SlabEstimator::analogue;  ///< that was used
     std::uint64_t walks = 0;
     std::uint64_t collisions = 0;
     double seconds = 0;  ///< wall time of walking

@@ -1,0 +1,507 @@
+// Unbiased, with less noise than the analogue walk of slab_walk.cpp: half_space_best.cpp between two surfaces.
+//
+// Each collision tallies the flux that leaves on either side without another collision or a reflection, along ways out
+// that 16 lanes share and their opposites. A walk that then leaves just so was counted; one that was reflected on its
+// way, or comes from a layer that does not foresee, is tallied where it leaves. At the outer surfaces the reflected
+// part goes on, at interfaces between layers a walk is reflected or passes.
+//
+// As in slab_walk.cpp a step ends at the next collision or interface, depths are counted from the top of the layer, and
+// lengths are in mm.
+#include "transport/slab/slab_best.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <memory>
+#include <utility>
+
+#include "transport/walk/long_walk.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "transport/slab/slab_best.cpp"
+// As in half_space_walk.cpp.
+#define HWY_DISABLED_TARGETS HWY_SSSE3
+#define HWY_BROKEN_EMU128 0
+#include <hwy/foreach_target.h>
+
+#include "transport/slab/slab_ways-inl.h"
+#include "transport/walk/lane_foresee-inl.h"
+#include "transport/walk/lane_walk-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace searchlight {
+namespace HWY_NAMESPACE {
+namespace {
+
+// As in half_space_best.cpp, for the same reasons.
+constexpr std::size_t kCopies = 16;
+constexpr std::size_t kFlushSteps = 256;
+constexpr std::int32_t kFadingWalk = 1 << 13;
+constexpr float kRoulette = 0.6f, kSplit = 2.0f, kMostParts = 16;
+// Up to so many collisions walks keep their weight: where little is scattered, few would be left to tell of what is
+// scattered twice.
+constexpr std::int32_t kUnjudged = 2;
+
+// Where a walk stands.
+enum Flight : std::int32_t {
+    collides,   // at a collision
+    foreseen,   // at an interface; if it leaves as it flies, that was counted
+    uncounted,  // at an interface; if it leaves, that is to be counted
+};
+
+enum Side { up, down, sides };
+
+struct alignas(64) SlabBestLanes {
+    float x[kLanes], y[kLanes], z[kLanes];  // z from the top of the layer
+    float u[kLanes], v[kLanes], w[kLanes];
+    float weight[kLanes];
+    float value[kLanes];  // weight times importance
+    std::int32_t order[kLanes], layer[kLanes], flight[kLanes];
+    std::uint64_t s0[kLanes / 2], s1[kLanes / 2];
+};
+
+struct SlabBestPack {
+    FloatV x, y, z;
+    Direction direction;
+    FloatV weight;
+    IntV order, layer, flight;
+    Generator random;
+};
+
+// Part of a split walk that waits for a lane.
+struct SlabWaiting {
+    float x, y, z, u, v, w, weight;
+    std::int32_t order, layer, flight, parts;
+};
+
+template <bool kIsotropic, bool kLayered>
+class SlabBestWalker {
+public:
+    SlabBestWalker(const SlabBestPlan& plan, SplitMix64 seeds, std::uint64_t walks)
+        : plan_(plan),
+          waiting_(walks),
+          slots_(plan.bins.next_edge.size()),
+          stride_(3 * slots_ | 1),
+          histogram_(2 * sides * kCopies * stride_),
+          flux_(3 * slots_),
+          last_(static_cast<std::int32_t>(plan.walk.layers.size()) - 1),
+          has_below_(!std::isinf(plan.walk.layers.back().thickness_mm)),
+          ways_{{plan.walk, true, seeds}, {plan.walk, false, seeds}} {
+        for (std::size_t i = 0; i < plan.walk.layers.size(); ++i) {
+            const SlabWalk::Layer& layer = plan.walk.layers[i];
+            const auto add = [](std::vector<float>& list, double value) { list.push_back(static_cast<float>(value)); };
+            add(mfp_, layer.mfp_mm);
+            add(thickness_, layer.thickness_mm);
+            add(albedo_, 1 - layer.absorbed);
+            add(g_, layer.g);
+            add(half_qq_, 0.5 * (1 - layer.g) * (1 - layer.g));
+            add(eta_, layer.eta_down);
+            add(eta_, layer.eta_up);
+            add(rows_per_mm_, plan.importance.layers[i].rows_per_mm);
+            first_row_.push_back(plan.importance.layers[i].first_row);
+            last_row_.push_back(plan.importance.layers[i].rows - 1);
+            after_.push_back(plan.foresees[i] ? foreseen : uncounted);
+        }
+        std::memset(&lanes_, 0, sizeof lanes_);
+        seed(lanes_, seeds);
+        rare_ = SplitMix64(seeds.next());
+    }
+
+    SlabBestSums run() {
+        SlabBestSums sums;
+        const std::size_t flush_steps = std::max(kFlushSteps, 2 * slots_);
+        std::size_t steps = 0;
+        while (const int alive = refill()) {
+            sums.steps += static_cast<std::uint64_t>(alive);
+            free_ = split_ = 0;
+            if ((way_ += kLanes / kCopies) == SlabWays::kCount) {
+                ways_[up].renew();
+                if (has_below_) ways_[down].renew();
+                way_ = 0;
+            }
+            for (std::size_t at = 0; at < kLanes; at += hn::Lanes(Float())) advance(at);
+            if (exits_.count > 0) countExits(sums);
+            if (split_ != 0) splitWalks();
+            if (++steps == flush_steps) {
+                flush();
+                steps = 0;
+            }
+        }
+        flush();
+        const auto run = [&](std::size_t from) {
+            const auto begin = flux_.begin() + static_cast<std::ptrdiff_t>(from * slots_);
+            return std::vector<double>(begin, begin + static_cast<std::ptrdiff_t>(slots_));
+        };
+        sums.single = run(0);
+        sums.multiple = run(1);
+        sums.transmitted = run(2);
+        sums.collisions = collisions_;
+        return sums;
+    }
+
+private:
+    // What the layer of each lane has in a list.
+    static HWY_INLINE FloatV of(const std::vector<float>& list, IntV layer) {
+        if constexpr (kLayered) return hn::GatherIndex(Float(), list.data(), layer);
+        return hn::Set(Float(), list[0]);
+    }
+    static HWY_INLINE IntV of(const std::vector<std::int32_t>& list, IntV layer) {
+        if constexpr (kLayered) return hn::GatherIndex(Int(), list.data(), layer);
+        return hn::Set(Int(), list[0]);
+    }
+
+    HWY_INLINE SlabBestPack load(std::size_t at) const {
+        const Float d;
+        const Int di;
+        const Word dw;
+        return {hn::Load(d, lanes_.x + at),
+                hn::Load(d, lanes_.y + at),
+                hn::Load(d, lanes_.z + at),
+                {hn::Load(d, lanes_.u + at), hn::Load(d, lanes_.v + at), hn::Load(d, lanes_.w + at)},
+                hn::Load(d, lanes_.weight + at),
+                hn::Load(di, lanes_.order + at),
+                hn::Load(di, lanes_.layer + at),
+                hn::Load(di, lanes_.flight + at),
+                {hn::Load(dw, lanes_.s0 + at / 2), hn::Load(dw, lanes_.s1 + at / 2)}};
+    }
+
+    HWY_INLINE void store(const SlabBestPack& pack, std::size_t at) {
+        const Float d;
+        const Int di;
+        const Word dw;
+        hn::Store(pack.x, d, lanes_.x + at);
+        hn::Store(pack.y, d, lanes_.y + at);
+        hn::Store(pack.z, d, lanes_.z + at);
+        hn::Store(pack.direction.u, d, lanes_.u + at);
+        hn::Store(pack.direction.v, d, lanes_.v + at);
+        hn::Store(pack.direction.w, d, lanes_.w + at);
+        hn::Store(pack.weight, d, lanes_.weight + at);
+        hn::Store(pack.order, di, lanes_.order + at);
+        hn::Store(pack.layer, di, lanes_.layer + at);
+        hn::Store(pack.flight, di, lanes_.flight + at);
+        hn::Store(pack.random.s0, dw, lanes_.s0 + at / 2);
+        hn::Store(pack.random.s1, dw, lanes_.s1 + at / 2);
+    }
+
+    // The collision of each walk that stands at one, its flight to the next or to an interface, and whether what
+    // follows is worth having.
+    HWY_INLINE void advance(std::size_t at) {
+        const Float d;
+        const Int di;
+        SlabBestPack pack = load(at);
+        const FloatV luck = fineUniform(pack.random.next());
+        const FloatV s = signedUniform(pack.random.next());
+        const Azimuth phi = azimuth(pack.random.next());
+        const hn::Mask<Int> scatters_i = hn::Eq(pack.flight, hn::Set(di, collides));
+        const FloatM scatters = hn::RebindMask(d, scatters_i);
+        const IntV after = of(after_, pack.layer);
+        const FloatM foresees = hn::And(scatters, hn::RebindMask(d, hn::Eq(after, hn::Set(di, foreseen))));
+        if (!hn::AllFalse(d, foresees)) {
+            foresee<up>(pack, foresees, pack.z, at);
+            if (has_below_) foresee<down>(pack, foresees, hn::Sub(of(thickness_, pack.layer), pack.z), at);
+        }
+        Direction turned;
+        if constexpr (kIsotropic)
+            turned = isotropicDirection(s, phi);
+        else
+            turned = henyeyGreenstein(pack.direction, of(g_, pack.layer), of(half_qq_, pack.layer), s, phi);
+        pack.direction.u = hn::IfThenElse(scatters, turned.u, pack.direction.u);
+        pack.direction.v = hn::IfThenElse(scatters, turned.v, pack.direction.v);
+        pack.direction.w = hn::IfThenElse(scatters, turned.w, pack.direction.w);
+        pack.flight = hn::IfThenElse(scatters_i, after, pack.flight);
+
+        const FloatV length = hn::Mul(exponential(pack.random.next()), of(mfp_, pack.layer));
+        const FloatV x = hn::MulAdd(length, pack.direction.u, pack.x);
+        const FloatV y = hn::MulAdd(length, pack.direction.v, pack.y);
+        const FloatV z = hn::MulAdd(length, pack.direction.w, pack.z);
+        const FloatM crosses = hn::Or(hn::Lt(z, hn::Zero(d)), hn::Gt(z, of(thickness_, pack.layer)));
+        const FloatM arrives = hn::Not(crosses);
+        const hn::Mask<Int> arrives_i = hn::RebindMask(di, arrives);
+        pack.weight = hn::IfThenElse(arrives, hn::Mul(pack.weight, of(albedo_, pack.layer)), pack.weight);
+        const IntV order = hn::Min(hn::Add(pack.order, hn::Set(di, 1)), hn::Set(di, kEndlessWalk));
+        pack.order = hn::IfThenElse(arrives_i, order, pack.order);
+        if (!hn::AllFalse(d, crosses)) cross(pack, crosses);
+        pack.x = hn::IfThenElse(arrives, x, pack.x);
+        pack.y = hn::IfThenElse(arrives, y, pack.y);
+        pack.z = hn::IfThenElse(arrives, z, pack.z);
+        pack.flight = hn::IfThenElse(arrives_i, hn::Set(di, collides), pack.flight);
+
+        const FloatV importance = importanceOf(pack);
+        const FloatV value = hn::Mul(pack.weight, importance);
+        // Reflected parts are small from the start.
+        const hn::Mask<Int> judged =
+            hn::Or(hn::Gt(pack.order, hn::Set(di, kUnjudged)), hn::Eq(pack.flight, hn::Set(di, uncounted)));
+        const FloatM low = hn::And(hn::Lt(value, hn::Set(d, kRoulette)),
+                                   hn::Or(hn::RebindMask(d, judged), hn::Le(pack.weight, hn::Zero(d))));
+        const FloatM lives = hn::Lt(luck, value);
+        pack.weight =
+            hn::IfThenElse(low, hn::IfThenElseZero(lives, hn::Div(hn::Set(d, 1.0f), importance)), pack.weight);
+        store(pack, at);
+        hn::Store(value, d, lanes_.value + at);
+        collisions_ += hn::CountTrue(d, hn::And(arrives, hn::Gt(pack.weight, hn::Zero(d))));
+        free_ |= bitsOf(hn::AndNot(lives, low), at);
+        split_ |= bitsOf(hn::Gt(value, hn::Set(d, kSplit)), at);
+    }
+
+    // Tallies what leaves on one side; `depth`: to the end of the layer there.
+    template <Side kSide>
+    HWY_INLINE void foresee(const SlabBestPack& pack, FloatM foresees, FloatV depth, std::size_t at) {
+        const Float d;
+        const SlabWays& ways = ways_[kSide];
+        const std::size_t way = way_ + at / kCopies;
+        IntV index = hn::Set(Int(), static_cast<int>(way));
+        if constexpr (kLayered)
+            index = hn::Add(hn::Mul(pack.layer, hn::Set(Int(), static_cast<int>(SlabWays::kCount))), index);
+        const auto get = [&](const std::vector<float>& field) HWY_ATTR {
+            if constexpr (kLayered) return hn::GatherIndex(d, field.data(), index);
+            return hn::Set(d, field[way]);
+        };
+        const FloatV tau = hn::MulAdd(depth, get(ways.path), get(ways.tau));
+        const FloatV part = hn::Mul(hn::Mul(pack.weight, hn::Set(d, 0.5f)), get(ways.share));
+        const FloatV leaves = hn::IfThenElseZero(foresees, hn::Mul(part, expNegative(tau)));
+        const FloatV dx = hn::MulAdd(depth, get(ways.x), get(ways.x_beyond));
+        const FloatV dy = hn::MulAdd(depth, get(ways.y), get(ways.y_beyond));
+        FloatV one = leaves, other = leaves;
+        if constexpr (!kIsotropic) {
+            const FloatV across = hn::MulAdd(get(ways.u), pack.direction.u, hn::Mul(get(ways.v), pack.direction.v));
+            const FloatV along = hn::Mul(kSide == up ? hn::Neg(get(ways.w)) : get(ways.w), pack.direction.w);
+            const FloatV g = of(g_, pack.layer);
+            one = hn::Mul(leaves, phase(g, hn::Add(along, across)));
+            other = hn::Mul(leaves, phase(g, hn::Sub(along, across)));
+        }
+        deposit<2 * kSide>(pack, at, hn::Add(pack.x, dx), hn::Add(pack.y, dy), one);
+        deposit<2 * kSide + 1>(pack, at, hn::Sub(pack.x, dx), hn::Sub(pack.y, dy), other);
+    }
+
+    // [HenyeyGreenstein1941], relative to isotropic scattering.
+    static HWY_INLINE FloatV phase(FloatV g, FloatV cosine) {
+        const FloatV one = hn::Set(Float(), 1.0f), g2 = hn::Mul(g, g);
+        const FloatV q = hn::NegMulAdd(hn::Add(g, g), cosine, hn::Add(one, g2));
+        return hn::Div(hn::Sub(one, g2), hn::Mul(q, hn::Sqrt(q)));
+    }
+
+    template <std::size_t kWay>
+    HWY_INLINE void deposit(const SlabBestPack& pack, std::size_t at, FloatV x, FloatV y, FloatV weight) {
+        const Float d;
+        const Int di;
+        IntV slot = slotOf(plan_.bins, hn::MulAdd(x, x, hn::Mul(y, y)));
+        const auto slots = static_cast<int>(slots_);
+        if constexpr (kWay < 2)
+            slot = hn::Add(slot, hn::IfThenZeroElse(hn::Eq(pack.order, hn::Set(di, 1)), hn::Set(di, slots)));
+        else
+            slot = hn::Add(slot, hn::Set(di, 2 * slots));
+        const IntV copy = hn::Iota(di, static_cast<int>(at % kCopies));
+        float* histogram = histogram_.data() + kWay * kCopies * stride_;
+        const IntV index = hn::Add(hn::Mul(copy, hn::Set(di, static_cast<int>(stride_))), slot);
+        hn::ScatterIndex(hn::Add(hn::GatherIndex(d, histogram, index), weight), d, histogram, index);
+    }
+
+    // Takes walks to the interface that they would cross, and beyond or back.
+    HWY_INLINE void cross(SlabBestPack& pack, FloatM crosses) {
+        const Float d;
+        const Int di;
+        Direction& in = pack.direction;
+        const FloatM rises = hn::Lt(in.w, hn::Zero(d));
+        const hn::Mask<Int> rises_i = hn::RebindMask(di, rises), crosses_i = hn::RebindMask(di, crosses);
+        const FloatV interface = hn::IfThenZeroElse(rises, of(thickness_, pack.layer));
+        const FloatV length = hn::Div(hn::Sub(interface, pack.z), in.w);
+        const IntV side = hn::IfThenElseZero(rises_i, hn::Set(di, 1));
+        const FloatV eta = hn::GatherIndex(d, eta_.data(), hn::Add(hn::Add(pack.layer, pack.layer), side));
+        const Refraction ray = fresnel(hn::Abs(in.w), eta);
+        const IntV beyond = hn::Add(pack.layer, hn::IfThenElse(rises_i, hn::Set(di, -1), hn::Set(di, 1)));
+        pack.x = hn::IfThenElse(crosses, hn::MulAdd(length, in.u, pack.x), pack.x);
+        pack.y = hn::IfThenElse(crosses, hn::MulAdd(length, in.v, pack.y), pack.y);
+        pack.z = hn::IfThenElse(crosses, interface, pack.z);
+
+        FloatM passes = hn::MaskFromVec(hn::Zero(d));
+        FloatM ends = crosses;
+        if constexpr (kLayered) {
+            const FloatM outer =
+                hn::RebindMask(d, hn::Or(hn::Lt(beyond, hn::Zero(di)), hn::Gt(beyond, hn::Set(di, last_))));
+            ends = hn::And(crosses, outer);
+            const FloatM within = hn::AndNot(outer, crosses);
+            const FloatV chance = uniform(pack.random.nextWhere(within));
+            passes = hn::And(within, hn::Ge(chance, ray.reflectance));
+        }
+        const FloatV reflected = hn::Mul(pack.weight, ray.reflectance);
+        const FloatM counts = hn::And(ends, hn::RebindMask(d, hn::Eq(pack.flight, hn::Set(di, uncounted))));
+        if (!hn::AllFalse(d, counts)) {
+            storeSet(pack.x, counts, d, exits_.x + exits_.count);
+            storeSet(pack.y, counts, d, exits_.y + exits_.count);
+            storeSet(hn::Sub(pack.weight, reflected), counts, d, exits_.weight + exits_.count);
+            const hn::Mask<Int> counts_i = hn::RebindMask(di, counts);
+            storeSet(pack.order, counts_i, di, exits_.order + exits_.count);
+            storeSet(beyond, counts_i, di, exits_.beyond + exits_.count);
+            exits_.count += hn::CountTrue(d, counts);
+        }
+        pack.weight = hn::IfThenElse(ends, reflected, pack.weight);
+        const FloatM turns = hn::AndNot(passes, crosses);
+        pack.flight =
+            hn::IfThenElse(hn::And(crosses_i, hn::RebindMask(di, turns)), hn::Set(di, uncounted), pack.flight);
+        in.u = hn::IfThenElse(passes, hn::Mul(eta, in.u), in.u);
+        in.v = hn::IfThenElse(passes, hn::Mul(eta, in.v), in.v);
+        in.w = hn::IfThenElse(passes, hn::CopySign(ray.cosine, in.w), hn::IfThenElse(turns, hn::Neg(in.w), in.w));
+        if constexpr (kLayered) {
+            pack.layer = hn::IfThenElse(hn::RebindMask(di, passes), beyond, pack.layer);
+            pack.z = hn::IfThenElse(passes, hn::IfThenElseZero(rises, of(thickness_, pack.layer)), pack.z);
+        }
+    }
+
+    HWY_INLINE FloatV importanceOf(const SlabBestPack& pack) const {
+        const Float d;
+        const Int di;
+        const FloatV offset = hn::Set(d, plan_.importance.offset);
+        constexpr int shift = 23 - SlabImportance::kMantissaBits;
+        const FloatV square = hn::MulAdd(pack.x, pack.x, hn::MulAdd(pack.y, pack.y, offset));
+        const IntV bits = hn::Sub(hn::BitCast(di, square), hn::BitCast(di, offset));
+        const IntV column = hn::Min(hn::ShiftRight<shift>(bits), hn::Set(di, SlabImportance::kColumns - 1));
+        const IntV last = of(last_row_, pack.layer);
+        // The conversion has to stay defined in a layer without end.
+        const FloatV place = hn::Min(hn::Mul(pack.z, of(rows_per_mm_, pack.layer)), hn::Set(d, 1e6f));
+        const IntV row = hn::Add(of(first_row_, pack.layer), hn::Min(hn::ConvertTo(di, place), last));
+        const IntV index = hn::Add(hn::Mul(row, hn::Set(di, SlabImportance::kColumns)), column);
+        const FloatV importance = hn::GatherIndex(d, plan_.importance.value.data(), index);
+        const hn::Mask<Int> is_long = hn::Gt(pack.order, hn::Set(di, kFadingWalk));
+        if (HWY_LIKELY(hn::AllFalse(di, is_long))) return importance;
+        const FloatV fade = hn::Div(hn::Set(d, static_cast<float>(kFadingWalk)), hn::ConvertTo(d, pack.order));
+        return hn::IfThenElse(hn::RebindMask(d, is_long), hn::Mul(importance, fade), importance);
+    }
+
+    // Exits that no collision had foreseen.
+    HWY_NOINLINE void countExits(SlabBestSums& sums) {
+        for (std::size_t i = 0; i < exits_.count; ++i) {
+            const double weight = exits_.weight[i];
+            const bool reflected = exits_.beyond[i] < 0;
+            if (exits_.order[i] == 0) {
+                (reflected ? sums.R_unscattered : sums.T_unscattered) += weight;
+                continue;
+            }
+            const double x = exits_.x[i], y = exits_.y[i];
+            const std::size_t run = reflected ? (exits_.order[i] == 1 ? 0 : 1) : 2;
+            flux_[run * slots_ + plan_.layout.row(x * x + y * y)] += weight;
+        }
+        exits_.count = 0;
+    }
+
+    HWY_NOINLINE void flush() {
+        for (std::size_t copy = 0; copy < 2 * sides * kCopies; ++copy) {
+            float* from = histogram_.data() + copy * stride_;
+            for (std::size_t i = 0; i < flux_.size(); ++i) {
+                flux_[i] += static_cast<double>(from[i]);
+                from[i] = 0;
+            }
+        }
+    }
+
+    HWY_NOINLINE void splitWalks() {
+        for (std::uint64_t bits = split_; bits != 0; bits &= bits - 1) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(bits));
+            const auto parts = static_cast<std::int32_t>(std::min(lanes_.value[i], kMostParts));
+            lanes_.weight[i] /= static_cast<float>(parts);
+            bank_.push_back({lanes_.x[i], lanes_.y[i], lanes_.z[i], lanes_.u[i], lanes_.v[i], lanes_.w[i],
+                             lanes_.weight[i], lanes_.order[i], lanes_.layer[i], lanes_.flight[i], parts - 1});
+        }
+    }
+
+    // Puts parts of split walks, then new walks, into free lanes. Returns the number of lanes that walk.
+    HWY_INLINE int refill() {
+        if (free_ == 0) return kLanes;
+        return refillFree();
+    }
+
+    HWY_NOINLINE int refillFree() {
+        std::uint64_t free = free_;
+        for (; free != 0 && !bank_.empty(); free &= free - 1) {
+            SlabWaiting& part = bank_.back();
+            put(static_cast<std::size_t>(std::countr_zero(free)), part);
+            if (--part.parts == 0) bank_.pop_back();
+        }
+        int parked = 0;
+        for (; free != 0; free &= free - 1) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(free));
+            SlabWaiting start{0,
+                              0,
+                              0,
+                              static_cast<float>(plan_.walk.sin_beam),
+                              0,
+                              static_cast<float>(plan_.walk.cos_beam),
+                              0,
+                              0,
+                              plan_.walk.first,
+                              uncounted,
+                              1};
+            if (waiting_ > 0) {
+                --waiting_;
+                start.weight = 1;
+                const BeamPoint point = plan_.walk.shape.draw(rare_, plan_.walk.cos_incidence);
+                start.x = static_cast<float>(point.x);
+                start.y = static_cast<float>(point.y);
+            } else {
+                ++parked;
+            }
+            put(i, start);
+        }
+        return static_cast<int>(kLanes) - parked;
+    }
+
+    HWY_INLINE void put(std::size_t i, const SlabWaiting& walk) {
+        lanes_.x[i] = walk.x, lanes_.y[i] = walk.y, lanes_.z[i] = walk.z;
+        lanes_.u[i] = walk.u, lanes_.v[i] = walk.v, lanes_.w[i] = walk.w;
+        lanes_.weight[i] = walk.weight;
+        lanes_.order[i] = walk.order, lanes_.layer[i] = walk.layer, lanes_.flight[i] = walk.flight;
+    }
+
+    const SlabBestPlan& plan_;
+    std::uint64_t waiting_;  // walks not yet started
+    std::size_t slots_, stride_;
+    std::vector<float> histogram_;  // per way and lane: reflected once, more often, transmitted
+    std::vector<double> flux_;      // the same
+    std::int32_t last_;             // layer
+    bool has_below_;
+    SlabWays ways_[sides];
+    std::size_t way_ = SlabWays::kCount - kLanes / kCopies;  // of the first lanes
+    // Per layer.
+    std::vector<float> mfp_, thickness_, albedo_, g_, half_qq_, rows_per_mm_;
+    std::vector<float> eta_;  // downwards, upwards
+    std::vector<std::int32_t> first_row_, last_row_, after_;
+    std::uint64_t collisions_ = 0;
+    std::uint64_t free_ = ~std::uint64_t{0}, split_ = 0;  // one bit a lane
+    std::vector<SlabWaiting> bank_;
+    SplitMix64 rare_;
+    struct {
+        float x[kLanes + 16], y[kLanes + 16], weight[kLanes + 16];
+        std::int32_t order[kLanes + 16], beyond[kLanes + 16];
+        std::size_t count = 0;
+    } exits_;
+    SlabBestLanes lanes_;
+};
+
+template <bool kIsotropic, bool kLayered>
+SlabBestSums slabBestAs(const SlabBestPlan& plan, SplitMix64 seeds, std::uint64_t walks) {
+    return std::make_unique<SlabBestWalker<kIsotropic, kLayered>>(plan, seeds, walks)->run();
+}
+
+}  // namespace
+
+SlabBestSums slabBestChunk(const SlabBestPlan& plan, SplitMix64 seeds, std::uint64_t walks) {
+    const std::vector<SlabWalk::Layer>& layers = plan.walk.layers;
+    const bool isotropic = std::ranges::all_of(layers, [](const SlabWalk::Layer& layer) { return layer.g == 0; });
+    if (layers.size() > 1) return (isotropic ? slabBestAs<true, true> : slabBestAs<false, true>)(plan, seeds, walks);
+    return (isotropic ? slabBestAs<true, false> : slabBestAs<false, false>)(plan, seeds, walks);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace searchlight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace searchlight {
+
+HWY_EXPORT(slabBestChunk);
+
+SlabBestSums walkForeseeingSlabChunk(const SlabBestPlan& plan, SplitMix64 seeds, std::uint64_t walks) {
+    return HWY_DYNAMIC_DISPATCH(slabBestChunk)(plan, seeds, walks);
+}
+
+}  // namespace searchlight
+#endif

@@ -1,0 +1,120 @@
+// What the best estimator of slabs decides before it walks: how its time is divided between the walks that foresee
+// where light leaves and analogue walks beside them.
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "transport/slab/slab_best.h"
+
+namespace searchlight {
+
+namespace {
+
+// As in half_space_plan.cpp.
+constexpr double kMostForesight = 0.7;
+
+// The pilot has numbers of its own, the same for every seed.
+constexpr std::uint64_t kPilotSeed = 0x736C6162, kBesideStream = 0x626573696465;
+constexpr std::uint64_t kPilotChunks = 16, kPilotWalks = 128, kPilotAnalogue = 512;
+constexpr double kStepTime = 9, kStart = 10, kAnalogueStepTime = 3, kAnalogueStart = 10;  // ns
+
+// The part of the time for analogue walks: absorption and angles are known from them alone.
+constexpr double kPartBeside = 1.0 / 3;
+
+double sumOf(const std::vector<double>& list) { return std::accumulate(list.begin(), list.end(), 0.0); }
+
+// Adds what the walks that foresee found to the slots of a layout.
+void add(const SlabBestSums& found, const SlabLayout& layout, std::vector<double>& flux) {
+    const auto at = [&](SlabLayout::Run run, std::size_t i = 0) -> double& { return flux[layout.first(run) + i]; };
+    at(SlabLayout::R_single) += sumOf(found.single);
+    at(SlabLayout::R_multiple) += sumOf(found.multiple);
+    at(SlabLayout::R_scattered) += sumOf(found.single) + sumOf(found.multiple);
+    at(SlabLayout::T_scattered) += sumOf(found.transmitted);
+    at(SlabLayout::R_unscattered) += found.R_unscattered;
+    at(SlabLayout::T_unscattered) += found.T_unscattered;
+    for (std::size_t row = 0; row < layout.rows(); ++row) {
+        at(SlabLayout::R_r_single, row) += found.single[row];
+        at(SlabLayout::R_r_multiple, row) += found.multiple[row];
+        at(SlabLayout::R_r, row) += found.single[row] + found.multiple[row];
+        at(SlabLayout::T_r, row) += found.transmitted[row];
+    }
+}
+
+}  // namespace
+
+bool bestServes(const SlabWalk& walk) {
+    // What is clear has a free path longer than anything.
+    const bool clear = std::ranges::any_of(walk.layers, [](const SlabWalk::Layer& l) { return l.mfp_mm > 1e20; });
+    return walk.tables.stay.empty() && !clear;
+}
+
+SlabBestPlan::SlabBestPlan(const SlabWalk& slab, std::span<const double> edges, const SlabLayout& tallied)
+    : walk(slab), layout(tallied), bins(laneBins(edges)), importance(makeSlabImportance(slab, edges)) {
+    for (const SlabWalk::Layer& layer : slab.layers) foresees.push_back(layer.g <= kMostForesight);
+
+    BatchRatios best(layout.slots());
+    std::uint64_t steps = 0, analogue_steps = 0;
+    for (std::uint64_t chunk = 0; chunk < kPilotChunks; ++chunk) {
+        const SlabBestSums found = walkForeseeingSlabChunk(*this, streamOf(kPilotSeed, chunk), kPilotWalks);
+        steps += found.steps;
+        std::vector<double> flux(layout.slots());
+        add(found, layout, flux);
+        best.add(flux, kPilotWalks);
+    }
+    SlabTally tally(layout);
+    analogue_steps += walkSlabChunk(slab, kPilotSeed, kPilotChunks, kPilotAnalogue, tally);
+    constexpr std::uint64_t walks = kPilotChunks * kPilotWalks;
+    const double time = kStart + kStepTime * static_cast<double>(steps) / walks;
+    const double analogue_time =
+        kAnalogueStart + kAnalogueStepTime * static_cast<double>(analogue_steps) / kPilotAnalogue;
+    beside = time / analogue_time;  // in equal times
+    // The part that makes the relative variance of the mix least, of slots together. What the analogue walk counts has
+    // the variance of counts.
+    const auto part = [&](SlabLayout::Run run, std::size_t begin, std::size_t end) {
+        double variance = 0, beside_variance = 0;
+        for (std::size_t slot = layout.first(run) + begin; slot < layout.first(run) + end; ++slot) {
+            const Estimate flux = best.estimate(slot, walks);
+            if (flux.mean <= 0) continue;
+            variance += std::pow(flux.standard_error / flux.mean, 2);
+            beside_variance += (1 - std::min(flux.mean, 0.99)) / (flux.mean * beside * walks);
+        }
+        return variance > 0 ? variance / (variance + beside_variance) : 0;
+    };
+    if (part(SlabLayout::R_r, 1, layout.rows() - 1) > 0.5) return;
+    worthwhile = true;
+    beside *= kPartBeside / (1 - kPartBeside);
+    part_R = part(SlabLayout::R_scattered, 0, 1);
+    part_T = part(SlabLayout::T_scattered, 0, 1);
+    part_R_r = part(SlabLayout::R_r, 1, layout.rows() - 1);
+    part_T_r = part(SlabLayout::T_r, 1, layout.rows() - 1);
+}
+
+std::uint64_t walkSlabBestChunk(const SlabBestPlan& plan, std::uint64_t seed, std::uint64_t chunk, std::uint64_t walks,
+                                SlabTally& tally) {
+    const SlabLayout& layout = plan.layout;
+    const SlabBestSums found = walkForeseeingSlabChunk(plan, streamOf(seed, chunk), walks);
+    const double n = static_cast<double>(walks);
+    const auto count = static_cast<std::uint64_t>(std::ceil(n * plan.beside));
+    SlabTally beside(layout);
+    const std::uint64_t collisions = walkSlabChunk(plan.walk, seed ^ kBesideStream, chunk, count, beside);
+    std::vector<double> mine(layout.slots());
+    add(found, layout, mine);
+    std::vector<double> flux(beside.flux().begin(), beside.flux().end());
+    for (double& value : flux) value *= n / static_cast<double>(count);
+    const auto mix = [&](SlabLayout::Run run, double part) {
+        for (std::size_t slot = layout.first(run); slot < layout.first(run) + layout.size(run); ++slot)
+            flux[slot] = part * flux[slot] + (1 - part) * mine[slot];
+    };
+    for (const SlabLayout::Run run : {SlabLayout::R_scattered, SlabLayout::R_single, SlabLayout::R_multiple})
+        mix(run, plan.part_R);
+    mix(SlabLayout::T_scattered, plan.part_T);
+    for (const SlabLayout::Run run : {SlabLayout::R_r, SlabLayout::R_r_single, SlabLayout::R_r_multiple})
+        mix(run, plan.part_R_r);
+    mix(SlabLayout::T_r, plan.part_T_r);
+    for (const SlabLayout::Run run : {SlabLayout::R_unscattered, SlabLayout::T_unscattered}) mix(run, 0.5);
+    tally.unpack(flux);
+    return found.collisions + collisions;
+}
+
+}  // namespace searchlight
