@@ -7,6 +7,7 @@
 #include "judge.h"
 #include "light/light_sampler.h"
 #include "mesh_shapes.h"
+#include "transport/mesh/facet_beams.h"
 #include "transport/mesh/radiance_body.h"
 
 namespace searchlight {
@@ -70,13 +71,13 @@ TEST(BodyRadiance, OfASphereInUniformLightIsItsExitance) {
 // Whatever lights a convex body: its pictures from all directions, four pi times their mean, are all that leaves it.
 // The error is that of the mean over cameras.
 Estimate seenFromAllSides(const MeshBody& body, const Medium& medium, const Illumination& light, double side,
-                          std::uint64_t seed) {
-    constexpr int cameras = 600, pixels = 16;
+                          std::uint64_t seed, int cameras = 600) {
+    constexpr int pixels = 16;
     Observer observer;
     SplitMix64 random(seed);
     double sum = 0, square = 0;
     for (int i = 0; i < cameras; ++i) {
-        const double y = (2 * (i + random.uniform())) / cameras - 1, ring = std::sqrt(1 - y * y),
+        const double y = 2 * (i + random.uniform()) / cameras - 1, ring = std::sqrt(1 - y * y),
                      turn = 2 * pi * random.uniform();
         const CameraRays camera = farCamera({ring * std::cos(turn), y, ring * std::sin(turn)}, 300, side, pixels);
         const BodyRadiance picture =
@@ -86,7 +87,7 @@ Estimate seenFromAllSides(const MeshBody& body, const Medium& medium, const Illu
         sum += total, square += total * total;
     }
     const double mean = sum / cameras;
-    return {mean, std::sqrt((square / cameras - mean * mean) / (cameras - 1)), cameras};
+    return {mean, std::sqrt((square / cameras - mean * mean) / (cameras - 1)), static_cast<std::uint64_t>(cameras)};
 }
 
 TEST(BodyRadiance, FromAllSidesIsWhatLeavesABox) {
@@ -117,6 +118,92 @@ TEST(BodyRadiance, FromAllSidesIsWhatLeavesABox) {
             EXPECT_LT(seen.standard_error, 0.05 * seen.mean);
         }
     judge.expectAgreement();
+}
+
+// Light of single directions and points, which no walk meets, through refractive facets.
+TEST(BodyRadiance, OfBeamsFromAllSidesIsWhatLeaves) {
+    Judge judge;
+    const MeshBody body(sphereMesh(1, 3), {.cell_area_mm2 = 0.5, .shortest_mfp = 1 / 12.0});
+    const Medium medium = channelMedium(0.4, 11.6, 0.3, 1.3);
+    Scene scene;
+    scene.object = "sphere";
+    std::uint64_t seed = 1;
+    const auto judged = [&](const char* what) {
+        const LightSampler lights(scene, placeObject(scene));
+        const Estimate left = exitance(body, medium, &lights, seed++).left;
+        const Estimate seen = seenFromAllSides(body, medium, &lights, 2.2, 1000 * seed++, 120);
+        // Rays from 300 mm are not quite parallel: 1e-4.
+        judge.compare(
+            what, {seen.mean - left.mean, std::hypot(seen.standard_error, left.standard_error, 1e-4 * left.mean), 1},
+            0);
+        EXPECT_LT(seen.standard_error, 0.07 * seen.mean) << what;
+    };
+    scene.lights = {DirectionalLight{.direction = {1, 2, 3}, .irradiance = {2, 1, 1}}};
+    judged("direction");
+    // In longest sides of the object, near enough for its light to spread inside.
+    scene.lights = {PointLight{.position = {0.8, 0.5, 0}, .intensity = {3, 1, 1}}};
+    judged("point");
+    scene.lights.push_back(DirectionalLight{.direction = {-1, 2, 0}, .irradiance = {1, 1, 1}, .angle_deg = 40});
+    judged("point and disc");
+    judge.expectAgreement();
+}
+
+// Below a wide facet, far from its edges: refraction of a plane wave, and of light from a point by two neighbouring
+// rays.
+TEST(FacetBeams, AreRefractedLight) {
+    const MeshBody body(boxMesh({4, 1, 4}), {.cell_area_mm2 = 1, .shortest_mfp = 0.5});
+    const BodyMedium medium{2, 0.1, 0, 1.4};
+    Scene scene;
+    scene.object = "sphere";
+    SplitMix64 random(1);
+    const auto below = [&](Vec3 place) {
+        const LightSampler lights(scene, placeObject(scene));
+        const FacetBeams beams(body, medium, lights, 0);
+        double sum = 0;
+        std::uint64_t rays = 0;
+        constexpr int times = 20'000;  // the roulette of weak beams: 1.3 %
+        for (int i = 0; i < times; ++i) sum += beams.scattered(toFloat(place), {0, 0, 1}, random, rays) / times;
+        return 4 * pi * 1.4 * 1.4 * sum;
+    };
+    const auto across = [](double sine) {  // T12 cos / cos' of a direction outside
+        const double c = std::sqrt(1 - sine * sine), t = std::sqrt(1 - sine * sine / 1.96);
+        const double s = (c - 1.4 * t) / (c + 1.4 * t), p = (1.4 * c - t) / (1.4 * c + t);
+        return (1 - 0.5 * (s * s + p * p)) * c / t;
+    };
+    scene.scale = 2;
+    scene.lights = {DirectionalLight{.direction = {3, 4, 0}, .irradiance = {5, 1, 1}}};
+    const double cosine = std::sqrt(1 - 0.36 / 1.96);
+    const double plane = 5 * across(0.6) * std::exp(-2 * 0.7 / cosine);
+    EXPECT_NEAR(below({0.1, 0.3, 0.2}), plane, 0.05 * plane);
+
+    scene.lights = {PointLight{.position = {1, 2, 0.5}, .intensity = {5, 1, 1}}};
+    const Vec3 source = placeObject(scene).longest_mm * Vec3{1, 2, 0.5};
+    // Rays from the source at polar angle theta reach this far from the foot at a depth; flux between two of them.
+    constexpr double depth = 0.7;
+    const double height = source.y - 1;
+    const auto reached = [&](double theta) {
+        return height * std::tan(theta) + depth * std::tan(std::asin(std::sin(theta) / 1.4));
+    };
+    const double theta = 0.55, step = 1e-5;
+    const double ring = (reached(theta + step) - reached(theta - step)) * reached(theta);
+    const double solid = std::cos(theta - step) - std::cos(theta + step);
+    const double inside = std::asin(std::sin(theta) / 1.4),
+                 t12 = across(std::sin(theta)) * std::cos(inside) / std::cos(theta);
+    // Intensity is at the distance of the object's longest side; flux per area across the ray.
+    const double intensity = 5 * std::pow(placeObject(scene).longest_mm, 2);
+    const double spread = intensity * t12 * solid / (ring * std::cos(inside)) * std::exp(-2 * depth / std::cos(inside));
+    EXPECT_NEAR(below({source.x - reached(theta), 1 - depth, source.z}), spread, 0.05 * spread);
+}
+
+// Straight through a box light meets its far side under the normal.
+TEST(FacetBeams, KnowWhatIsMirroredBeforeItScatters) {
+    const MeshBody body(boxMesh({4, 1, 4}), {.cell_area_mm2 = 1, .shortest_mfp = 0.5});
+    Scene scene;
+    scene.object = "sphere";
+    scene.lights = {DirectionalLight{.direction = {0, 1, 0}}};
+    const LightSampler lights(scene, placeObject(scene));
+    const FacetBeams beams(body, {0.5, 0, 0, 1.4}, lights, 0);
+    EXPECT_NEAR(beams.mirrored(), std::exp(-0.5 * 2) * std::pow(0.4 / 2.4, 2), 1e-6);
 }
 
 TEST(BodyRadiance, StatesItsErrors) {

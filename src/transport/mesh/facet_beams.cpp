@@ -26,6 +26,29 @@ Vec3 refracted(Vec3 wi, Vec3 normal, double eta) {
     return normalize((-1 / eta) * wi + (c / eta - t) * normal);
 }
 
+// Light from a point above a plane comes to one below it, `away` to the side: how far to the side it crosses. The two
+// sines of Snell's law are monotone in that, so that Newton's steps within a bracket end.
+double offsetOfRefraction(double height, double depth, double away, double eta) {
+    double low = 0, high = away, offset = away * eta * height / (eta * height + depth);
+    for (int i = 0; i < 60 && high - low > 1e-10 * away; ++i) {
+        const double rest = away - offset;
+        const double outside = 1 / std::sqrt(offset * offset + height * height);
+        const double inside = 1 / std::sqrt(rest * rest + depth * depth);
+        const double excess = offset * outside - eta * rest * inside;
+        (excess < 0 ? low : high) = offset;
+        const double slope =
+            height * height * outside * outside * outside + eta * depth * depth * inside * inside * inside;
+        const double next = offset - excess / slope;
+        if (std::abs(next - offset) <= 1e-10 * away) return std::clamp(next, low, high);
+        offset = next > low && next < high ? next : 0.5 * (low + high);
+    }
+    return offset;
+}
+
+// Between the corners of a facet refracted directions differ from a linear function of the place by less than the
+// square of the angle that it spans for the light.
+double bendOf(double side, double distance) { return std::min(2.0, std::pow(side / distance, 2)); }
+
 struct Box {
     Vec3 low, high;
 
@@ -58,16 +81,24 @@ void FacetBeams::addBeams(std::uint32_t light) {
         const LightSample sample = lights_.sampleOf(light, a, 0.5, 0.5);
         const double cosine = dot(sample.wi, normal);
         if (!(cosine > 0) || (1 - cosine) * (1 + cosine) >= medium_.eta * medium_.eta) continue;
-        Beam beam{t, light, !std::isfinite(sample.distance), {}, {}};
-        if (beam.parallel) {
-            const Vec3 d = refracted(sample.wi, normal, medium_.eta), side = b - a, other = c - a;
-            const double volume = dot(side, cross(other, d));
-            if (volume == 0) continue;  // a facet without area
-            const Vec3 rows[]{cross(other, d), cross(d, side), cross(side, other)};
-            for (int i = 0; i < 3; ++i) {
-                beam.rows[i] = toFloat((1 / volume) * rows[i]);
-                beam.constants[i] = static_cast<float>(-dot(rows[i], a) / volume);
+        Beam beam{t, light, !std::isfinite(sample.distance), 0, {}, {}};
+        const LightSample middle = lights_.sampleOf(light, (1 / 3.0) * (a + b + c), 0.5, 0.5);
+        const Vec3 d = refracted(middle.wi, normal, medium_.eta), side = b - a, other = c - a;
+        const double volume = dot(side, cross(other, d));
+        if (volume == 0) continue;  // a facet without area
+        const Vec3 rows[]{cross(other, d), cross(d, side), cross(side, other)};
+        for (int i = 0; i < 3; ++i) {
+            beam.rows[i] = toFloat((1 / volume) * rows[i]);
+            beam.constants[i] = static_cast<float>(-dot(rows[i], a) / volume);
+        }
+        if (!beam.parallel) {
+            double turn = 0;
+            for (const Vec3& corner : {a, b, c}) {
+                const LightSample there = lights_.sampleOf(light, corner, 0.5, 0.5);
+                turn = std::max(turn, length(refracted(there.wi, normal, medium_.eta) - d));
             }
+            turn += bendOf(std::max(length(side), length(other)), middle.distance);
+            beam.slack = static_cast<float>(2 * turn * (length(rows[0]) + length(rows[1])) / std::abs(volume));
         }
         beams_.push_back(beam);
     }
@@ -88,17 +119,15 @@ void FacetBeams::forEachCell(const Beam& beam, const Visit& visit) const {
     const Vec3 normal = unitNormal(body_.mesh(), beam.triangle);
     const auto corners = cornersOf(body_.mesh(), beam.triangle);
     Box facet{corners[0], corners[0]}, directions{};
-    double spread = 0;
+    double bend = 0;
     for (int i = 0; i < 3; ++i) {
         const LightSample sample = lights_.sampleOf(beam.light, corners[i], 0.5, 0.5);
         const Vec3 d = refracted(sample.wi, normal, medium_.eta);
         if (i == 0) directions = {d, d};
         facet.hold(corners[i]);
         directions.hold(d);
-        // Between the corners directions differ from a linear function by the square of the angle that the facet spans.
-        if (!beam.parallel) spread = std::max(spread, length(facet.high - facet.low) / sample.distance);
+        if (!beam.parallel) bend = std::max(bend, bendOf(length(facet.high - facet.low), sample.distance));
     }
-    const double bend = std::min(2.0, spread * spread);
     directions.low = directions.low - bend * Vec3{1, 1, 1}, directions.high = directions.high + bend * Vec3{1, 1, 1};
     const double margin = 1e-3 * cell_mm_;
     for (double from = 0; from < reach_mm_; from += cell_mm_) {
@@ -175,19 +204,11 @@ bool FacetBeams::arrive(const Beam& beam, Vec3 position, Arrival& arrival) const
         arrival.distance = depth / -dot(arrival.direction, normal);
         arrival.entry = position - arrival.distance * arrival.direction;
     } else {
-        // Light from a point goes through a plane at the offset where Snell's law holds; both sides of it are
-        // monotone.
         const Vec3 source = a + light.distance * light.wi;
         const double height = dot(source - a, normal);
         const Vec3 foot = source - height * normal, lateral = position + depth * normal - foot;
-        const double away = length(lateral);
-        double low = 0, high = away;
-        for (int i = 0; i < 60 && high - low > 1e-12 * away; ++i) {
-            const double middle = 0.5 * (low + high), rest = away - middle;
-            const double outside = middle / std::hypot(middle, height), inside = rest / std::hypot(rest, depth);
-            (outside < eta * inside ? low : high) = middle;
-        }
-        arrival.entry = foot + (away > 0 ? 0.5 * (low + high) / away : 0.0) * lateral;
+        const double away = length(lateral), offset = offsetOfRefraction(height, depth, away, eta);
+        arrival.entry = foot + (away > 0 ? offset / away : 0.0) * lateral;
         arrival.distance = length(position - arrival.entry);
         arrival.direction = (1 / arrival.distance) * (position - arrival.entry);
     }
@@ -211,17 +232,14 @@ double FacetBeams::scattered(Vec3f position, Vec3 direction, SplitMix64& random,
     double sum = 0;
     for (std::uint32_t i = first_[cell]; i < first_[cell + 1]; ++i) {
         const Beam& beam = beams_[list_[i]];
-        if (beam.parallel) {
-            const auto number = [&](int row) {
-                const Vec3f& r = beam.rows[row];
-                return r.x * position.x + r.y * position.y + r.z * position.z + beam.constants[row];
-            };
-            constexpr auto margin = static_cast<float>(kMargin);
-            const float u = number(0), v = number(1);
-            if (u < -margin || v < -margin || u + v > 1 + margin) continue;
-            const float t = number(2);
-            if (!(t > 0 && static_cast<double>(t) < reach_mm_)) continue;
-        }
+        const auto number = [&](int row) {
+            const Vec3f& r = beam.rows[row];
+            return r.x * position.x + r.y * position.y + r.z * position.z + beam.constants[row];
+        };
+        const float u = number(0), v = number(1), t = number(2);
+        const float margin = static_cast<float>(kMargin) + beam.slack * std::abs(t);
+        if (u < -margin || v < -margin || u + v > 1 + margin) continue;
+        if (beam.parallel && !(t > 0 && static_cast<double>(t) < reach_mm_)) continue;
         Arrival light;
         if (!arrive(beam, toDouble(position), light) || light.distance >= reach_mm_) continue;
         double value = light.irradiance;
@@ -240,7 +258,7 @@ double FacetBeams::scattered(Vec3f position, Vec3 direction, SplitMix64& random,
 }
 
 double FacetBeams::measureMirrored() const {
-    constexpr std::uint64_t candidates = 65'536;
+    constexpr std::uint64_t candidates = 8192;  // knows the part to a few percent of itself
     const Illumination light = &lights_;
     // No candidate meets the roulette.
     EntrySource<MeshBody> source(body_, light, {channel_, medium_.eta, 1e-9 * body_.area()}, candidates, SplitMix64(1));

@@ -31,11 +31,12 @@ public:
     double mirrored() const { return mirrored_; }
 
 private:
-    // The point (u, v) of a facet from which a parallel beam gets to a position x after the distance t: each is
-    // row . x + constant.
+    // The point (u, v) of a facet from which light gets to a position x after the distance t: each is row . x +
+    // constant. Behind light from a point u and v are off by up to the slack times t.
     struct Beam {
         std::uint32_t triangle = 0, light = 0;
         bool parallel = false;
+        float slack = 0;
         Vec3f rows[3];
         float constants[3] = {};
     };
