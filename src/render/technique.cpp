@@ -7,6 +7,7 @@
 #include "render/brute_force.h"
 #include "render/direct.h"
 #include "render/hierarchical.h"
+#include "render/local.h"
 #include "render/separable.h"
 
 namespace searchlight {
@@ -57,6 +58,11 @@ std::span<const TechniqueEntry> techniques() {
          .light_at = LightPlace::visible,
          .gl = true,
          .make = makeSeparable},
+        {.id = "local",
+         .summary = "samples of the tangent plane, projected onto what the eye sees; points where it does not see",
+         .options = with(localOptions(), normalBeamOption()),
+         .light_at = LightPlace::visible,
+         .make = makeLocal},
     };
     return entries;
 }
