@@ -71,8 +71,8 @@ public:
           Rd_(tables.Rd.impl(), {}),
           density_(tables.density.impl(), {}),
           tangent_count_(static_cast<float>(tables.tangent.u.size())),
-          facing_count_(static_cast<float>(tables.facing.u.size() / 2)),
-          even_count_(static_cast<float>(tables.facing.u.size()) - facing_count_) {}
+          facing_count_(static_cast<float>(tables.facing.u.size())),
+          even_count_(static_cast<float>(tables.even.u.size())) {}
 
     void gather(std::size_t at, Rgbf* exitance) {
         const Float d;
@@ -152,12 +152,11 @@ private:
         const Float d;
         for (std::size_t k = 0; k < tables_.tangent.u.size(); ++k)
             take(onChart(tangent_, radiusOf(shifted(tables_.tangent.u[k])), tables_.tangent, k));
-        // An even disc and importance by turns.
+        for (std::size_t k = 0; k < tables_.facing.u.size(); ++k)
+            take(onChart(facing_, radiusOf(shifted(tables_.facing.u[k])), tables_.facing, k));
         const FloatV radius = hn::Set(d, tables_.even_radius);
-        for (std::size_t k = 0; k < tables_.facing.u.size(); ++k) {
-            const FloatV u = shifted(tables_.facing.u[k]);
-            take(onChart(facing_, k % 2 == 0 ? hn::Mul(radius, hn::Sqrt(u)) : radiusOf(u), tables_.facing, k));
-        }
+        for (std::size_t k = 0; k < tables_.even.u.size(); ++k)
+            take(onChart(facing_, hn::Mul(radius, hn::Sqrt(shifted(tables_.even.u[k]))), tables_.even, k));
     }
 
     // Where the line of sight through `place` meets a chart: r^2 from the receiver, and dA / dA' without the patch's h;
@@ -299,7 +298,8 @@ TangentSampler::Tables tablesOf(const Profile& profile, int tangent, int facing,
             .annuli = annuliOf(density),
             .even_radius = static_cast<float>(density.sampleRadius(0.9, 0)),
             .tangent = drawsOf(tangent, seed),
-            .facing = drawsOf(facing, seed + 1),
+            .facing = drawsOf(facing / 2, seed + 1),
+            .even = drawsOf(facing - facing / 2, seed + 2),
             .noise_u = blueNoise(seed),
             .noise_angle = blueNoise(seed + 1)};
 }

@@ -68,7 +68,7 @@ public:
         std::vector<float>
             annuli;             ///< per part of equal probability: square of its inner radius, and its width in that
         float even_radius = 0;  ///< mm
-        Draws tangent, facing;
+        Draws tangent, facing, even;
         std::vector<float> noise_u, noise_angle;  ///< tiles of blue noise
     };
 
