@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 #include "base/error.h"
@@ -14,6 +13,7 @@
 #include "render/direct/even_points.h"
 #include "render/direct/probe_hits.h"
 #include "render/direct/probes.h"
+#include "render/exitance/fine_cell.h"
 #include "render/exitance_sum.h"
 
 namespace searchlight {
@@ -34,6 +34,9 @@ constexpr int directions_per_draw = 16;
 constexpr std::size_t hits_at_once = 200'000;
 constexpr std::size_t queries_per_batch = 65'536;
 
+// Points of a pass that take about as long as its probes do.
+constexpr std::size_t table_points = 16'384, model_points = 512;
+
 int whole(const ParamValues& options, std::string_view name) {
     return static_cast<int>(std::get<double>(options.find(name)->second));
 }
@@ -44,19 +47,6 @@ double fallOff(const Medium& medium) {
     for (int c = 0; c < Rgb::channels; ++c)
         if (medium.scatters(c)) slowest = std::min(slowest, std::sqrt(3 * medium.sigma_a[c] * medium.sigmaTp()[c]));
     return std::isfinite(slowest) ? slowest : 0;
-}
-
-// The radius of a disc in which R_d may be taken for its mean: it holds 1e-4 of the flux of its densest channel, so
-// that nothing is seen of it, and no distance of two floats is 0.
-double cellArea(const Profile& profile) {
-    double radius = profile.radii().back();
-    for (int c = 0; c < Rgb::channels; ++c) {
-        const double total = profile.total()[c];
-        double r = profile.radii().back();
-        while (total > 0 && r > 1e-9 * profile.radii().back() && profile.encircled(r)[c] > 1e-4 * total) r *= 0.8;
-        if (total > 0) radius = std::min(radius, r);
-    }
-    return std::numbers::pi * radius * radius;
 }
 
 // R_d is shared out between evenly spread points and probes by the distance alone: points take
@@ -97,6 +87,7 @@ public:
         passes_ = (passes + most_steps - 1) / most_steps;
         steps_ = (passes + passes_ - 1) / passes_;
         points_per_pass_ = static_cast<std::size_t>(whole(options, "pass_points"));
+        if (points_per_pass_ == 0) points_per_pass_ = input.profile ? table_points : model_points;
         by_points_ = sampling != "probes";
         const bool by_probes = sampling != "area";
         if (sampling == "probes" && !input.profile)
@@ -117,7 +108,7 @@ public:
         shares_ = probes_ ? Shares(*probes_, by_points_ ? points_per_mm2 : 0) : Shares();
         if (by_points_) points_profile_ = shares_.ofPoints(profile_);
         table_.reset();
-        if (input.profile && by_points_) table_.emplace(points_profile_, cellArea(profile_));
+        if (input.profile && by_points_) table_.emplace(points_profile_, fineCellArea(profile_));
         receivers_ = ReceiverBlocks(input.visible->positions);
         const std::size_t count = input.visible->positions.size();
         sums_.assign(count, {});
@@ -370,10 +361,11 @@ std::vector<Param> directOptions() {
              .doc = "of the surface: evenly, around each sample by the profile, or both, each where it is better"},
             {.name = "pass_points",
              .type = ParamType::integer,
-             .min = 16,
+             .min = 0,
              .max = 1e6,
-             .value = 512.0,
-             .doc = "points that are drawn evenly over the surface in a pass"}};
+             .value = 0.0,
+             .doc = "points that are drawn evenly over the surface in a pass; 0: 16384, or 512 where a model reads "
+                    "directions"}};
 }
 
 std::unique_ptr<Technique> makeDirect(gl::Context*) { return std::make_unique<Direct>(); }

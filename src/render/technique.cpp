@@ -7,6 +7,7 @@
 #include "render/brute_force.h"
 #include "render/direct.h"
 #include "render/hierarchical.h"
+#include "render/local.h"
 #include "render/separable.h"
 #include "render/texture_space.h"
 
@@ -64,6 +65,11 @@ std::span<const TechniqueEntry> techniques() {
          .directional = true,
          .light_at = LightPlace::own,
          .make = makeTextureSpace},
+        {.id = "local",
+         .summary = "samples of the tangent plane, projected onto what the eye sees; points where it does not see",
+         .options = with(localOptions(), normalBeamOption()),
+         .light_at = LightPlace::visible,
+         .make = makeLocal},
     };
     return entries;
 }

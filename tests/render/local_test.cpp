@@ -1,0 +1,114 @@
+#include "render/local.h"
+
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "render/screen/blue_noise.h"
+#include "render/screen/tangent_samples.h"
+#include "screen_plane.h"
+
+namespace searchlight {
+namespace {
+
+// A Gaussian profile of that standard deviation and total 1, 0.5, 2.
+Profile gaussian(double sigma_mm) {
+    std::vector<double> radii;
+    std::vector<Rgb> values;
+    for (int i = 0; i <= 200; ++i) {
+        const double r = 6 * sigma_mm * i / 200;
+        const double value =
+            std::exp(-0.5 * r * r / (sigma_mm * sigma_mm)) / (2 * std::numbers::pi * sigma_mm * sigma_mm);
+        radii.push_back(r);
+        values.push_back(value * Rgb{1, 0.5, 2});
+    }
+    return {std::move(radii), std::move(values)};
+}
+
+std::vector<Rgbf> gathered(const test::ScreenPlane& plane, const Profile& profile, std::span<const Rgbf> light,
+                           int importance, int uniform) {
+    ScreenPatches patches = screenPatches(plane.view, plane.visible, 1);
+    setLight(plane.visible, light, patches);
+    Observer quiet;
+    std::vector<Rgbf> exitance;
+    TangentSampler(profile, importance, uniform, 1).gather(patches, 0, quiet, exitance);
+    return exitance;
+}
+
+// Mean over samples whose surroundings, to 5 sigma, are seen; of `take` of each.
+template <class Take>
+double meanOf(const test::ScreenPlane& plane, double margin_pixels, const Take& take) {
+    double sum = 0;
+    int count = 0;
+    for (std::size_t i = 0; i < plane.visible.pixels.size(); ++i) {
+        const int x = static_cast<int>(plane.visible.pixels[i]) % plane.view.width;
+        const int y = static_cast<int>(plane.visible.pixels[i]) / plane.view.width;
+        if (std::min({x, y, plane.view.width - x, plane.view.height - y}) < margin_pixels) continue;
+        sum += take(i);
+        ++count;
+    }
+    return sum / count;
+}
+
+TEST(TangentSamples, EvenLightOnAPlaneLeavesTheTotalAtAnyTiltAndWidth) {
+    // From a tenth of a pixel to 12 pixels wide: no part of the kernel is lost or counted twice.
+    for (const double tilt : {0.0, 40.0, 70.0})
+        for (const double pixels : {0.1, 1.0, 12.0}) {
+            const test::ScreenPlane plane(200, tilt, 30);
+            const double pixel_mm = 200 * 2 * plane.view.tan_half / plane.view.height;
+            const Profile profile = gaussian(pixels * pixel_mm);
+            const std::vector<Rgbf> light(plane.visible.positions.size(), Rgbf{1, 1, 1});
+            const std::vector<Rgbf> exitance = gathered(plane, profile, light, 48, 16);
+            const double mean = meanOf(plane, 90, [&](std::size_t i) { return exitance[i].r; });
+            // 3e-3: without uniform samples nothing would scatter; with them a mean over 400 pixels does.
+            EXPECT_NEAR(mean, profile.total().r, 3e-3) << tilt << " " << pixels;
+            EXPECT_NEAR(exitance[plane.middle()].b, profile.total().b, 0.15) << tilt << " " << pixels;
+        }
+}
+
+TEST(TangentSamples, ImportanceAloneHasNoNoiseUnderEvenLight) {
+    const test::ScreenPlane plane(200, 55, 100);
+    const Profile profile = gaussian(3);
+    const std::vector<Rgbf> light(plane.visible.positions.size(), Rgbf{1, 1, 1});
+    const std::vector<Rgbf> exitance = gathered(plane, profile, light, 16, 0);
+    // 2,048 annuli, in which the mean density stands for the density.
+    EXPECT_NEAR(exitance[plane.middle()].r, 1, 0.01);
+}
+
+TEST(TangentSamples, AStepOfLightBecomesTheErrorFunction) {
+    for (const double tilt : {0.0, 50.0}) {
+        const test::ScreenPlane plane(200, tilt, 90);
+        const std::vector<Rgbf> light = plane.light([](double s, double) { return s > 0 ? 1.0 : 0.0; });
+        const Profile profile = gaussian(4);
+        const std::vector<Rgbf> exitance = gathered(plane, profile, light, 48, 16);
+        double off = 0, squares = 0;
+        int count = 0;
+        for (std::size_t i = 0; i < plane.visible.positions.size(); ++i) {
+            const Vec3 at = toDouble(plane.visible.positions[i]);
+            const double s = dot(at, plane.s), t = dot(at, plane.t);
+            if (std::abs(s) > 12 || std::abs(t) > 12) continue;
+            const double expected = 0.5 * std::erfc(-s / (4 * std::sqrt(2.0)));
+            off += exitance[i].r - expected;
+            squares += std::pow(exitance[i].r - expected, 2);
+            ++count;
+        }
+        // Bias of the mean: a pixel is 0.5 mm wide, and its light that of its middle. Noise of 64 samples.
+        EXPECT_NEAR(off / count, 0, 3e-3) << tilt;
+        EXPECT_LT(std::sqrt(squares / count), 0.04) << tilt;
+    }
+}
+
+TEST(BlueNoise, HasEachRankOnceAndNeighboursThatDiffer) {
+    const std::vector<float> noise = blueNoise(3);
+    EXPECT_EQ(std::set<float>(noise.begin(), noise.end()).size(), noise.size());
+    double neighbours = 0;
+    for (int y = 0; y < blue_noise_side; ++y)
+        for (int x = 0; x < blue_noise_side; ++x)
+            neighbours += std::abs(noise[static_cast<std::size_t>(y * blue_noise_side + x)] -
+                                   noise[static_cast<std::size_t>(y * blue_noise_side + (x + 1) % blue_noise_side)]);
+    // Independent numbers differ by 1/3.
+    EXPECT_GT(neighbours / static_cast<double>(noise.size()), 0.38);
+}
+
+}  // namespace
+}  // namespace searchlight
