@@ -56,6 +56,7 @@ std::span<const TechniqueEntry> techniques() {
          .options = with(textureSpaceOptions(), normalBeamOption()),
          .directional = true,
          .light_at = LightPlace::own,
+         .gl = true,
          .make = makeTextureSpace},
     };
     return entries;
