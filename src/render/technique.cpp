@@ -64,6 +64,7 @@ std::span<const TechniqueEntry> techniques() {
          .options = with(textureSpaceOptions(), normalBeamOption()),
          .directional = true,
          .light_at = LightPlace::own,
+         .gl = true,
          .make = makeTextureSpace},
         {.id = "local",
          .summary = "samples of the tangent plane, projected onto what the eye sees; points where it does not see",

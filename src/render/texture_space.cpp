@@ -8,8 +8,10 @@
 #include <numeric>
 #include <optional>
 
-#include "render/directional_hierarchy.h"
+#include "base/error.h"
+#include "gl/context.h"
 #include "render/exitance_sum.h"
+#include "render/hierarchical.h"
 #include "render/texture/texture_samples.h"
 
 namespace searchlight {
@@ -37,32 +39,44 @@ AtlasOptions atlasOptions(const ParamValues& options, int threads) {
             .threads = threads};
 }
 
+// Pairs of a receiver and a sample in one slice of a device's work.
+constexpr std::size_t slice_pairs = 20'000'000;
+
 class TextureSpace final : public Technique {
 public:
+    explicit TextureSpace(gl::Context* context) : context_(context) {
+        if (context) device_.emplace(*context);
+    }
+
     void start(const RenderInput& input, const ParamValues& options, Observer& observer) override {
         stage_ms_.clear();
         const bool surface = refreshAtlas(input, options, observer);
         const bool new_light = refreshLight(input, surface, observer);
         if (new_light || now(input, options) != drawn_from_) draw(input, options, observer);
-        const bool view = seen_.view != input.versions.view || !receivers_;
+        const bool view = seen_.view != input.versions.view || !viewed_;
         input_ = input;
         seen_ = input.versions;
+        viewed_ = true;
         exitance_.assign(input.visible->positions.size(), {});
-        if (samples_.dark) return;
-        if (input.profile)
-            prepareRadial(options, view);
-        else
+        next_ = 0;
+        if (samples_.dark || exitance_.empty()) return;
+        if (!input.profile)
             prepareDirectional(observer);
+        else if (device_)
+            prepareDevice(options, view);
+        else
+            prepareRadial(options, view);
     }
 
     bool step(Observer& observer) override {
-        if (samples_.dark) return true;
+        if (samples_.dark || exitance_.empty()) return true;
         if (!input_.profile) {
             const bool done = directional_->step(observer);
             std::ranges::copy(directional_->exitance(), exitance_.begin());
             return done;
         }
         const auto begin = Clock::now();
+        if (device_) return sumSlice(observer);
         sum_options_.observer = &observer;
         sumExitance(*points_, *table_, *receivers_, sum_options_, exitance_, &statistics_);
         stage_ms_["sum"] += milliseconds(begin);
@@ -134,12 +148,21 @@ private:
                                .own_light = std::get<bool>(options.at("own_light")),
                                .beams = input.light.beams,
                                .seed = input.light.seed},
-                              observer);
+                              device_ ? &*device_ : nullptr, observer);
         ++draws_;
         drawn_from_ = now(input, options);
         points_.reset();
         stage_ms_["draw"] = milliseconds(begin);
     }
+
+    // The area of the disc over which R_d is averaged.
+    double cellArea(const ParamValues& options) const {
+        const double texel = area() / static_cast<double>(map_.size());
+        const double sample = samples_.lit_area_mm2 / static_cast<double>(samples_.points.positions.size());
+        return std::max(texel, std::get<double>(options.at("footprint")) * sample);
+    }
+
+    double area() const { return std::accumulate(map_.cells.areas.begin(), map_.cells.areas.end(), 0.0); }
 
     void prepareRadial(const ParamValues& options, bool view) {
         const auto begin = Clock::now();
@@ -147,25 +170,45 @@ private:
             points_.emplace(samples_.points, input_.threads);
             points_->setTransmitted(samples_.irradiance.transmitted, input_.threads);
         }
-        const double texel =
-            std::accumulate(map_.cells.areas.begin(), map_.cells.areas.end(), 0.0) / static_cast<double>(map_.size());
-        const double sample = samples_.lit_area_mm2 / static_cast<double>(samples_.points.positions.size());
-        const double cell = std::max(texel, std::get<double>(options.at("footprint")) * sample);
+        const double cell = cellArea(options);
         const std::string table = fmt::format("{} {}", input_.versions.material, cell);
         if (table != table_from_) table_.emplace(*input_.profile, cell);
         table_from_ = table;
-        if (view) receivers_.emplace(input_.visible->positions, input_.threads);
-        const bool loop = std::get<std::string>(options.at("sum")) == "loop";
+        if (view || !receivers_) receivers_.emplace(input_.visible->positions, input_.threads);
         sum_options_ = {.error = tree_error,
-                        .one_by_one = loop,
+                        .one_by_one = std::get<std::string>(options.at("sum")) == "loop",
                         .threads = input_.threads,
                         .calibration = &calibration_,
                         .memory = &memory_};
         stage_ms_["tree"] = milliseconds(begin);
     }
 
+    void prepareDevice(const ParamValues& options, bool view) {
+        const auto begin = Clock::now();
+        device_->setSamples(samples_.points, samples_.irradiance.transmitted);
+        const double cell = cellArea(options);
+        const std::string table = fmt::format("{} {}", input_.versions.material, cell);
+        if (table != table_from_) device_->setProfile(*input_.profile, cell, area());
+        table_from_ = table;
+        if (view || !on_device_) device_->setReceivers(input_.visible->positions);
+        on_device_ = true;
+        stage_ms_["upload"] = milliseconds(begin);
+    }
+
+    bool sumSlice(Observer& observer) {
+        if (observer.cancelled()) throw interruptedError();
+        const auto begin = Clock::now();
+        const std::size_t most = std::max<std::size_t>(1, slice_pairs / samples_.points.positions.size());
+        const std::size_t count = std::min(most, exitance_.size() - next_);
+        device_->sum(next_, std::span(exitance_).subspan(next_, count));
+        next_ += count;
+        stage_ms_["sum"] += milliseconds(begin);
+        observer.progress("texture-space", next_, exitance_.size(), "receivers");
+        return next_ == exitance_.size();
+    }
+
     void prepareDirectional(Observer& observer) {
-        if (!directional_) directional_ = makeDirectionalHierarchy();
+        if (!directional_) directional_ = makeHierarchical(context_);
         RenderInput inner = input_;
         inner.points = &samples_.points;
         inner.irradiance = &samples_.irradiance;
@@ -173,12 +216,16 @@ private:
         directional_->start(inner, {{"error", 5 * tree_error}}, observer);
     }
 
+    gl::Context* context_;
+    std::optional<TextureGl> device_;  // where cells are chosen and radial models summed, if not on the CPU
     Atlas atlas_;
     TexelMap map_;
     std::string atlas_from_, drawn_from_, table_from_;
     std::optional<LitAtlas> lit_;
     TextureSamples samples_;
     std::uint64_t draws_ = 0;
+    bool viewed_ = false, on_device_ = false;
+    std::size_t next_ = 0;  // receiver of the device's next slice
 
     std::optional<PointTree> points_;
     std::optional<ReceiverTree> receivers_;
@@ -231,9 +278,9 @@ std::vector<Param> textureSpaceOptions() {
          .type = ParamType::choice,
          .value = std::string("tree"),
          .choices = {"tree", "loop"},
-         .doc = "over the samples: by trees to 0.1 %, or one by one"}};
+         .doc = "over the samples: by trees to 0.1 %, or one by one, as OpenGL always does"}};
 }
 
-std::unique_ptr<Technique> makeTextureSpace(gl::Context*) { return std::make_unique<TextureSpace>(); }
+std::unique_ptr<Technique> makeTextureSpace(gl::Context* context) { return std::make_unique<TextureSpace>(context); }
 
 }  // namespace searchlight

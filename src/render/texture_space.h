@@ -12,7 +12,7 @@ namespace searchlight {
 /// "samples", "atlas", "uvs", "footprint", "own_light", "sum".
 std::vector<Param> textureSpaceOptions();
 
-/// CPU.
+/// On the CPU, or where a context is given the cells are chosen and the samples summed there.
 std::unique_ptr<Technique> makeTextureSpace(gl::Context* context);
 
 }  // namespace searchlight

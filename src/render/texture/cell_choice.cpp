@@ -36,4 +36,10 @@ CellChoice CellChooser::choose(double along) const {
             std::clamp((wanted - before) / weight, 0.0, 1 - 0x1p-53), weight / total()};
 }
 
+std::vector<CellChoice> CellChooser::choose(std::span<const double> along) const {
+    std::vector<CellChoice> choices;
+    for (const double each : along) choices.push_back(choose(each));
+    return choices;
+}
+
 }  // namespace searchlight

@@ -31,6 +31,7 @@ public:
 
     /// The cell in whose part of [0, 1) `along` lies; never one with weight 0.
     CellChoice choose(double along) const;
+    std::vector<CellChoice> choose(std::span<const double> along) const;
 
     double total() const { return until_.back(); }
 

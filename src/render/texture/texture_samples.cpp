@@ -38,7 +38,8 @@ void LitAtlas::light(const RenderInput& input, Observer& observer) {
     lit_area_mm2_ = squares > 0 ? power_ * power_ / squares : area_mm2_;
 }
 
-TextureSamples LitAtlas::draw(const RenderInput& input, const TextureSampleOptions& options, Observer& observer) const {
+TextureSamples LitAtlas::draw(const RenderInput& input, const TextureSampleOptions& options, TextureGl* device,
+                              Observer& observer) const {
     TextureSamples samples{.lit_area_mm2 = lit_area_mm2_};
     if (!(power_ > 0)) {
         samples.dark = true;
@@ -48,13 +49,18 @@ TextureSamples LitAtlas::draw(const RenderInput& input, const TextureSampleOptio
     std::vector<double> weights(map_.size());
     for (std::size_t i = 0; i < weights.size(); ++i)
         weights[i] = map_.cells.areas[i] * ((1 - flat) * brightness(transmitted_[i]) / power_ + flat / area_mm2_);
-    const CellChooser chooser(weights);
-    std::vector<std::uint32_t> cells;
+    std::vector<SampleNumbers> numbers;
+    std::vector<double> along;
     for (std::size_t k = 0; k < options.count; ++k) {
-        const SampleNumbers numbers = sampleNumbers(k, options.count, options.seed);
-        const CellChoice choice = chooser.choose(numbers.along);
-        const SurfaceSample place =
-            sampleCell(input.object->mesh, atlas_, map_, choice.cell, choice.inside, numbers.across, numbers.around);
+        numbers.push_back(sampleNumbers(k, options.count, options.seed));
+        along.push_back(numbers.back().along);
+    }
+    std::vector<std::uint32_t> cells;
+    for (std::size_t k = 0;
+         const CellChoice& choice : device ? device->choose(weights, along) : CellChooser(weights).choose(along)) {
+        const SurfaceSample place = sampleCell(input.object->mesh, atlas_, map_, choice.cell, choice.inside,
+                                               numbers[k].across, numbers[k].around);
+        ++k;
         cells.push_back(choice.cell);
         samples.points.positions.push_back(place.position);
         samples.points.normals.push_back(place.normal);

@@ -1,12 +1,11 @@
 // Samples of the light on a surface, drawn in its atlas: what all receivers share.
 #pragma once
 
-#include <optional>
-
 #include "geometry/atlas/texel_map.h"
 #include "light/irradiance.h"
 #include "light/lit_points.h"
 #include "render/technique.h"
+#include "render/texture/texture_gl.h"
 
 namespace searchlight {
 
@@ -38,7 +37,9 @@ public:
     /// Cells are chosen in proportion to area times transmitted light, the mean of the channels. Where the light is
     /// read at the samples one in ten is chosen by area alone, so that nothing lit is missed that is dark at the middle
     /// of its texel.
-    TextureSamples draw(const RenderInput& input, const TextureSampleOptions& options, Observer& observer) const;
+    /// `device`: chooses them; null: the CPU does.
+    TextureSamples draw(const RenderInput& input, const TextureSampleOptions& options, TextureGl* device,
+                        Observer& observer) const;
 
     std::span<const Rgbf> transmitted() const { return transmitted_; }  ///< per cell
 
