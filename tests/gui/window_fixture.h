@@ -28,8 +28,8 @@ inline QApplication& application() {
     return application;
 }
 
-/// Handles events until `done`, or for so many ms. Whether it was done.
-inline bool waitUntil(const std::function<bool()>& done, int ms = 30'000) {
+/// Handles events until `done`, or for so many ms, many enough for a machine with other work. Whether it was done.
+inline bool waitUntil(const std::function<bool()>& done, int ms = 120'000) {
     QElapsedTimer clock;
     clock.start();
     while (!done() && clock.elapsed() < ms) QTest::qWait(10);

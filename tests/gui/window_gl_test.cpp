@@ -101,15 +101,14 @@ TEST_F(MainTest, ASlowTechniqueIsShownAsItGrowsAndCancelled) {
         if (shown().partly && !shown().b.isNull()) seen.push_back(shown().b);
     });
     workspace.edit(QStringLiteral("compare"), {}, [&](State& state) {
-        state.scene.object = "statue";
         state.options["view"]["compare"] = std::string("wipe");
         state.options["view"]["against"] = std::string("technique brute_force");
     });
     auto* bar = find<QProgressBar>(window.get(), "task.bar");
     auto* cancel = find<QToolButton>(window.get(), "task.cancel");
     const auto own = [&] { return tasks.busy("picture", "picture") && bar->isVisible() && bar->maximum() > 0; };
-    ASSERT_TRUE(waitUntil([&] { return seen.size() >= 3 && own(); }, 60'000));
-    EXPECT_NE(seen[1], seen[2]);
+    ASSERT_TRUE(waitUntil([&] { return seen.size() >= 2 && own(); }, 180'000));
+    EXPECT_NE(seen[0], seen[1]);
     EXPECT_GT(bar->value(), 0);
     // Whichever task stands longest is offered first.
     EXPECT_TRUE(waitUntil([&] {

@@ -29,8 +29,7 @@ QString fileEnding(const std::string& name) {
 
 }  // namespace
 
-KernelExportButton::KernelExportButton(Desk& desk, std::string lane, QWidget* parent)
-    : QToolButton(parent), desk_(desk), lane_(std::move(lane)) {
+KernelExportButton::KernelExportButton(Desk& desk, QWidget* parent) : QToolButton(parent), desk_(desk) {
     setObjectName(QStringLiteral("kernel.export"));
     setText(tr("Export"));
     setAccessibleName(tr("Export the kernel"));
@@ -61,11 +60,11 @@ void KernelExportButton::setKernel(std::shared_ptr<const KernelShown> shown) {
     setEnabled(shown_ != nullptr);
 }
 
-// An engine's profile is a fit: not on the window's thread.
+// An engine's profile is a fit: not on the window's thread, and not behind the errors that the table waits for.
 void KernelExportButton::make(const std::string& format, std::function<void(const std::string&)> take) {
     if (!shown_) return;
     desk_.tasks.start(
-        {.lane = lane_, .key = "export", .title = tr("Export"), .receiver = this},
+        {.lane = "kernel export", .key = "export", .title = tr("Export"), .receiver = this},
         [shown = shown_, format, take = std::move(take)](TaskContext& context) {
             const std::string text = exportedKernel(format, *shown->judged, shown->base->subject, shown->base->truth);
             context.publish([take, text] { take(text); });

@@ -15,8 +15,7 @@ class KernelExportButton : public QToolButton {
     Q_OBJECT
 
 public:
-    /// `lane`: where the texts are made.
-    KernelExportButton(Desk& desk, std::string lane, QWidget* parent);
+    KernelExportButton(Desk& desk, QWidget* parent);
 
     /// What is exported; null: nothing.
     void setKernel(std::shared_ptr<const KernelShown> shown);
@@ -26,7 +25,6 @@ private:
     void save(const std::string& format);
 
     Desk& desk_;
-    std::string lane_;
     std::shared_ptr<const KernelShown> shown_;
 };
 

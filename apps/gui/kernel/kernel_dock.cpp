@@ -98,7 +98,7 @@ private:
                                   tr("Skin, shaded"), tr("Skin, evenly lit")});
         bar->addChoice("taps", tr("Taps"), {tr("7 taps"), tr("11 taps"), tr("17 taps"), tr("25 taps"), tr("41 taps")});
         bar->addChoice("truth", tr("Ground truth"), {tr("Walks"), tr("Active model")});
-        export_ = new KernelExportButton(desk_, kLane, this);
+        export_ = new KernelExportButton(desk_, this);
         bar->addWidget(export_);
         return bar;
     }
@@ -122,6 +122,7 @@ private:
             figures_[i] = new FigureView(desk_.theme, halves_[i]);
             figures_[i]->setObjectName(QLatin1String(names[i]));
             figures_[i]->setMinimumSize(100, 100);
+            figures_[i]->setLegendBeside();
             column->addWidget(figures_[i], 1);
             row->addWidget(halves_[i], 1);
         }

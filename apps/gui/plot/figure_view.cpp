@@ -187,7 +187,7 @@ void FigureView::paintSingle(QPainter& painter) {
             break;
         }
         const LegendPlace place = placeLegend(legend, frame, drawn);
-        if (place.covered <= bearable || frame.width() - legend.width < 200) {
+        if ((!legend_beside_ && place.covered <= bearable) || frame.width() - legend.width < 200) {
             drawLegend(shapes, entries, place.box);
             break;
         }

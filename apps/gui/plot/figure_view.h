@@ -30,6 +30,9 @@ public:
     /// The values of all series at the cursor's x, or of all maps at its place. Empty where nothing is read.
     QStringList readOut() const { return read_out_; }
 
+    /// The legend stands at the right instead of where it hides least: figures beside each other look alike.
+    void setLegendBeside() { legend_beside_ = true; }
+
     /// The range shown; none: nothing to show, or several panels.
     std::optional<FigureRange> shownRange() const;
     void resetZoom();
@@ -74,6 +77,7 @@ private:
     std::optional<QPointF> cursor_;
     std::optional<QPointF> dragged_from_;
     QStringList read_out_;
+    bool legend_beside_ = false;
     double legend_room_ = 0;         ///< at the right, where it would hide curves
     std::optional<Drawing> panels_;  ///< laid out for panels_size_
     QSize panels_size_;

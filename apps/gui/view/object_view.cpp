@@ -145,7 +145,7 @@ void ObjectView::paintLabels(QPainter& painter) {
         if (comparing() && !shown.label_b.isEmpty()) {
             QString label = shown.label_b;
             if (shown.walks > 0)
-                label += tr(", %1 M walks, %2 % a pixel")
+                label += tr(", %1 M walks, \u00b1%2 % a pixel")
                              .arg(static_cast<double>(shown.walks) * 1e-6, 0, 'g', 2)
                              .arg(100 * shown.reference_error, 0, 'g', 2);
             else if (textOption(state, "against") == "reference")

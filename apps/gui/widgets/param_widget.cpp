@@ -44,6 +44,7 @@ QString labelOf(const Param& param) {
     // The unit stands behind the number.
     if (!unit.isEmpty() && text.endsWith('_' + unit)) text.chop(unit.size() + 1);
     text.replace('_', ' ');
+    if (text == "brdf") return text.toUpper();
     // A symbol is not a word.
     if (text.size() > 3) text[0] = text[0].toUpper();
     return text;

@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <map>
 
+#include "gui/models/models_dock.h"
 #include "gui/state/command_line.h"
 #include "gui/state/open_path.h"
 #include "gui/view/object_view.h"
@@ -177,6 +178,14 @@ void MainWindow::closeWelcome() {
 
 void MainWindow::begin(const QString& way) {
     if (way != "compare") {
+        // A shipped model can be read; what can be written at once is a template.
+        if (way == "editor") {
+            try {
+                addNewModel(desk_.workspace, "radial");
+            } catch (const Error& error) {
+                desk_.notices.post(error);
+            }
+        }
         showDock(way);
         // Code below the object needs more room than a plot.
         if (way == "editor" && dockWidgetArea(dock(way)) == Qt::BottomDockWidgetArea)

@@ -41,7 +41,7 @@ TaskBar::TaskBar(Desk& desk, QWidget* parent) : QWidget(parent), desk_(desk) {
     cancel_->setIcon(desk.theme.icon("close"));
     cancel_->setIconSize({12, 12});
     // No higher than a line of text: it stands at the edge of the window all the time.
-    cancel_->setFixedSize(22, 22);
+    cancel_->setFixedSize(26, 22);
     cancel_->setToolTip(tr("Cancel"));
     cancel_->setAccessibleName(tr("Cancel the running task"));
     for (QWidget* each : {static_cast<QWidget*>(text_), static_cast<QWidget*>(bar_), static_cast<QWidget*>(cancel_)}) {
