@@ -19,9 +19,6 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/screen/tangent_samples.cpp"
-// As in half_space_walk.cpp.
-#define HWY_DISABLED_TARGETS HWY_SSSE3
-#define HWY_BROKEN_EMU128 0
 #include <hwy/foreach_target.h>
 
 #include "render/exitance/kernels-inl.h"
