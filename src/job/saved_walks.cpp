@@ -38,7 +38,9 @@ std::string difference(const Json& a, const Json& b, const std::string& pointer)
             if (!b.contains(key)) return place;
             if (const std::string found = difference(value, b.at(key), place); !found.empty()) return found;
         }
-        return a.size() == b.size() ? "" : pointer;
+        for (const auto& [key, value] : b.items())
+            if (!a.contains(key)) return pointer + "/" + key;
+        return "";
     }
     return a == b ? "" : pointer;
 }

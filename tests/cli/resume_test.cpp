@@ -67,6 +67,21 @@ TEST_F(Program, WalksOfAnotherProblemAreNotResumed) {
     EXPECT_EQ(readFile(folder() / "walks.json"), before);
 }
 
+// What a problem names only where it is used differs as well, on either side.
+TEST_F(Program, WalksOfAnotherEstimatorAreNotResumed) {
+    writeFile(folder() / "layers.json",
+              R"({"format": "searchlight-layers/1", "n_above": 1, "n_below": 1, "layers": [
+                  {"n": 1.5, "sigma_a": 0.05, "sigma_s": 2, "g": 0, "thickness_mm": 1}]})");
+    const std::string slab = "reference slab --layers layers.json --walks 1000 ";
+    for (const auto& [first, second] : {std::pair("analogue", "best"), std::pair("best", "analogue")}) {
+        const std::string file = std::string("--resume ") + first + ".json --estimator ";
+        ASSERT_EQ(run(slab + file + first).exit_code, 0);
+        const Output other = run(slab + file + second);
+        EXPECT_EQ(other.exit_code, 3);
+        EXPECT_THAT(other.err, HasSubstr("these are walks of another problem: /estimator differs"));
+    }
+}
+
 TEST_F(Program, DamagedWalksAreRefusedAndKept) {
     ASSERT_EQ(run(half_space + "--walks 1000 --resume walks.json").exit_code, 0);
     const std::string good = readFile(folder() / "walks.json");

@@ -51,6 +51,7 @@ const Case cases[] = {
     {"sheet", {1, 1, {{1, 1, 9, 0.7, 0.2}}}, 3e5, 0.02},
     {"matched", {1, 1, {{1, 0, 1, 0, 1}}}, 3e5, 0.1},
     {"oblique", {1, 1, {{1, 0.01, 0.99, 0.5, 4}}, 60}, 1e5, 0.2},
+    {"thin, reflecting", {1, 1.2, {{1.6, 0.05, 1, 0, 0.3}}}, 3e5, 0.05},
     {"unlike above and below", {1, 1.2, {{1.4, 0.05, 1, 0.3, 3}}, 30}, 1e5, 0.13},
     {"half-space", {1, 1, {{1.5, 0.1, 2, 0, infinity}}}, 2e5, 0.05},
     {"two layers", {1, 1, {{1.5, 0.05, 2, 0, 1}, {1.3, 0.1, 3, 0.4, 2}}}, 1e5, 0.05},
@@ -114,6 +115,10 @@ TEST(SlabBest, AgreesWithTheAnalogueWalk) {
             for (std::size_t i = 0; i < mine->mean.size(); ++i)
                 compare(std::string(what) + " " + std::to_string(i), {theirs->mean[i], theirs->standard_error[i], 0},
                         {mine->mean[i], mine->standard_error[i], 0});
+        if (a.A.mean > 0) {
+            const double left = b.R.mean + b.R_unscattered.mean + b.T.mean + b.T_unscattered.mean;
+            EXPECT_NEAR(b.specular + left + b.A.mean, 1, 1e-12);
+        }
         for (std::size_t i = 0; i < b.R_r.mean.size(); ++i)
             EXPECT_NEAR(b.R_r_single.mean[i] + b.R_r_multiple.mean[i], b.R_r.mean[i], 1e-12 * b.R_r.mean[i]);
     }
@@ -209,12 +214,12 @@ TEST(SlabBest, AnInterruptedWalkGoesOnToTheNumbersOfOneThatNeverStopped) {
     Observer calm;
     SlabOptions o{.walks = 20'000, .edges_mm = {0, 0.1, 1, 3}, .depth_mm = 1, .threads = 2};
     o.estimator = SlabEstimator::best;
-    const SlabResult whole = walkSlab(cases[5].problem, o, calm);
+    const SlabResult whole = walkSlab(cases[6].problem, o, calm);
     WalkState state;
     o.control.state = &state;
     Impatient impatient;
-    EXPECT_TRUE(walkSlab(cases[5].problem, o, impatient).interrupted);
-    EXPECT_EQ(numbers(walkSlab(cases[5].problem, o, calm)), numbers(whole));
+    EXPECT_TRUE(walkSlab(cases[6].problem, o, impatient).interrupted);
+    EXPECT_EQ(numbers(walkSlab(cases[6].problem, o, calm)), numbers(whole));
 }
 
 // The estimator that it is for: profiles in narrow annuli, per collision.

@@ -245,7 +245,7 @@ public:
 private:
     // Whether exits are foreseen there, with weights far below 1.
     bool foreseen(std::size_t slot) const {
-        return best_ != nullptr && (slot < layout_.first(SlabLayout::A_total) ||
+        return best_ != nullptr && (slot <= layout_.first(SlabLayout::A_total) ||
                                     (slot >= layout_.first(SlabLayout::R_r) && slot < layout_.first(SlabLayout::R_a)));
     }
 

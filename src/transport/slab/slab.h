@@ -38,7 +38,7 @@ struct SlabLayer {
 /// As Estimator of the half-space.
 enum class SlabEstimator {
     analogue,
-    best,  ///< R, T, R(r) and T(r) with less noise (slab_best.h); angles, absorption, depths from analogue walks beside
+    best,  ///< R(r) and T(r) with less noise (slab_best.h); angles, layers and depths from analogue walks beside
 };
 
 struct SlabProblem {

@@ -37,11 +37,12 @@ struct SlabBestPlan {
     SlabImportance importance;
     std::vector<char> foresees;  ///< per layer: its collisions tally expected escapes; otherwise what leaves the slab
 
+    bool absorbs = false;
     bool worthwhile = false;  ///< a pilot found that R(r) is known better than by analogue walks in the same time
-    /// Analogue walks for each walk. They count absorption and angles, and have a part in the rest, which the pilot
-    /// chooses.
+    /// Analogue walks for each walk. They count angles and where light is absorbed, and have a part in the rest, which
+    /// the pilot chooses.
     double beside = 0;
-    double part_R = 0, part_T = 0, part_R_r = 0, part_T_r = 0;
+    double part_totals = 0, part_R_r = 0, part_T_r = 0;
 };
 
 /// The walks with expected escape and importance alone.

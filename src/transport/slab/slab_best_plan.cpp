@@ -20,7 +20,7 @@ constexpr std::uint64_t kPilotChunks = 16, kPilotWalks = 128, kPilotAnalogue = 5
 constexpr double kStepTime = 9, kStart = 10, kAnalogueStepTime = 3, kAnalogueStart = 10;  // ns
 
 // The part of the time for analogue walks: absorption and angles are known from them alone.
-constexpr double kPartBeside = 1.0 / 3;
+constexpr double kPartBeside = 0.5;
 
 double sumOf(const std::vector<double>& list) { return std::accumulate(list.begin(), list.end(), 0.0); }
 
@@ -51,7 +51,10 @@ bool bestServes(const SlabWalk& walk) {
 
 SlabBestPlan::SlabBestPlan(const SlabWalk& slab, std::span<const double> edges, const SlabLayout& tallied)
     : walk(slab), layout(tallied), bins(laneBins(edges)), importance(makeSlabImportance(slab, edges)) {
-    for (const SlabWalk::Layer& layer : slab.layers) foresees.push_back(layer.g <= kMostForesight);
+    for (const SlabWalk::Layer& layer : slab.layers) {
+        foresees.push_back(layer.g <= kMostForesight);
+        absorbs |= layer.absorbed > 0;
+    }
 
     BatchRatios best(layout.slots());
     std::uint64_t steps = 0, analogue_steps = 0;
@@ -71,9 +74,9 @@ SlabBestPlan::SlabBestPlan(const SlabWalk& slab, std::span<const double> edges, 
     beside = time / analogue_time;  // in equal times
     // The part that makes the relative variance of the mix least, of slots together. What the analogue walk counts has
     // the variance of counts.
-    const auto part = [&](SlabLayout::Run run, std::size_t begin, std::size_t end) {
+    const auto part = [&](const std::vector<std::size_t>& slots) {
         double variance = 0, beside_variance = 0;
-        for (std::size_t slot = layout.first(run) + begin; slot < layout.first(run) + end; ++slot) {
+        for (const std::size_t slot : slots) {
             const Estimate flux = best.estimate(slot, walks);
             if (flux.mean <= 0) continue;
             variance += std::pow(flux.standard_error / flux.mean, 2);
@@ -81,13 +84,17 @@ SlabBestPlan::SlabBestPlan(const SlabWalk& slab, std::span<const double> edges, 
         }
         return variance > 0 ? variance / (variance + beside_variance) : 0;
     };
-    if (part(SlabLayout::R_r, 1, layout.rows() - 1) > 0.5) return;
+    const auto annuli = [&](SlabLayout::Run run) {
+        std::vector<std::size_t> slots(layout.rows() - 2);
+        std::iota(slots.begin(), slots.end(), layout.first(run) + 1);
+        return slots;
+    };
+    if (part(annuli(SlabLayout::R_r)) > 0.5) return;
     worthwhile = true;
     beside *= kPartBeside / (1 - kPartBeside);
-    part_R = part(SlabLayout::R_scattered, 0, 1);
-    part_T = part(SlabLayout::T_scattered, 0, 1);
-    part_R_r = part(SlabLayout::R_r, 1, layout.rows() - 1);
-    part_T_r = part(SlabLayout::T_r, 1, layout.rows() - 1);
+    part_totals = part({layout.first(SlabLayout::R_scattered), layout.first(SlabLayout::T_scattered)});
+    part_R_r = part(annuli(SlabLayout::R_r));
+    part_T_r = part(annuli(SlabLayout::T_r));
 }
 
 std::uint64_t walkSlabBestChunk(const SlabBestPlan& plan, std::uint64_t seed, std::uint64_t chunk, std::uint64_t walks,
@@ -106,13 +113,21 @@ std::uint64_t walkSlabBestChunk(const SlabBestPlan& plan, std::uint64_t seed, st
         for (std::size_t slot = layout.first(run); slot < layout.first(run) + layout.size(run); ++slot)
             flux[slot] = part * flux[slot] + (1 - part) * mine[slot];
     };
-    for (const SlabLayout::Run run : {SlabLayout::R_scattered, SlabLayout::R_single, SlabLayout::R_multiple})
-        mix(run, plan.part_R);
-    mix(SlabLayout::T_scattered, plan.part_T);
+    for (const SlabLayout::Run run : {SlabLayout::R_scattered, SlabLayout::R_single, SlabLayout::R_multiple,
+                                      SlabLayout::R_unscattered, SlabLayout::T_scattered, SlabLayout::T_unscattered})
+        mix(run, plan.part_totals);
     for (const SlabLayout::Run run : {SlabLayout::R_r, SlabLayout::R_r_single, SlabLayout::R_r_multiple})
         mix(run, plan.part_R_r);
     mix(SlabLayout::T_r, plan.part_T_r);
-    for (const SlabLayout::Run run : {SlabLayout::R_unscattered, SlabLayout::T_unscattered}) mix(run, 0.5);
+    // What is not absorbed has left.
+    if (plan.absorbs) {
+        double left = 0;
+        for (const SlabLayout::Run run :
+             {SlabLayout::R_scattered, SlabLayout::R_unscattered, SlabLayout::T_scattered, SlabLayout::T_unscattered})
+            left += flux[layout.first(run)];
+        flux[layout.first(SlabLayout::A_total)] = n - left;
+        if (plan.walk.layers.size() == 1) flux[layout.first(SlabLayout::A_layer)] = n - left;
+    }
     tally.unpack(flux);
     return found.collisions + collisions;
 }
