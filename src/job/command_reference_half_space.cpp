@@ -59,11 +59,7 @@ Json tallyJson(const ReferenceRun& run, HalfSpaceTally HalfSpaceResult::*order, 
 }
 
 std::vector<double> edgesOf(const Options& options) {
-    if (options.given("edges")) {
-        if (options.given("bins") || options.given("radii_max"))
-            throw usageError("--edges and --bins with --radii-max exclude each other", "give one of the two");
-        return options.list("edges");
-    }
+    if (option::edgesGiven(options)) return options.list("edges");
     if (!options.given("bins") && !options.given("radii_max")) return {};
     if (!options.given("radii_max")) throw usageError("--bins needs --radii-max", "in mm, such as --radii-max 10");
     const int bins = static_cast<int>(options.number("bins"));
@@ -266,13 +262,7 @@ Command referenceHalfSpaceCommand() {
             .example = "searchlight reference halfspace --material skin1 --walks 1e6 --radii-max 10 --bins 100 --json",
             .options =
                 {option::walks(1e6),
-                 {.name = "edges",
-                  .type = ParamType::numbers,
-                  .unit = "mm",
-                  .min = 0,
-                  .max = option::unlimited,
-                  .value = std::vector<double>{},
-                  .doc = "edges of the radial bins"},
+                 option::edges(),
                  option::radiiMax(),
                  option::bins(100),
                  option::angle(),

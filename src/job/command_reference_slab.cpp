@@ -94,9 +94,7 @@ JobResult runReferenceSlab(const Job& job, Engine& engine, Observer& observer) {
     const bool grid_given = options.given("mci");  // the file has one, which options override
     const auto wants = [&](const char* option) { return !grid_given || options.given(option); };
     if (wants("walks")) walk.walks = static_cast<std::uint64_t>(options.number("walks"));
-    if (options.given("edges")) {
-        if (options.given("bins") || options.given("radii_max"))
-            throw usageError("--edges and --bins with --radii-max exclude each other", "give one of the two");
+    if (option::edgesGiven(options)) {
         walk.edges_mm = options.list("edges");
     } else if (wants("bins") || options.given("radii_max")) {
         const double range = options.number("radii_max");
@@ -170,13 +168,7 @@ Command referenceSlabCommand() {
                         option::angle(),
                         option::beam(),
                         option::beamRadius(),
-                        {.name = "edges",
-                         .type = ParamType::numbers,
-                         .unit = "mm",
-                         .min = 0,
-                         .max = option::unlimited,
-                         .value = std::vector<double>{},
-                         .doc = "edges of the radial bins"},
+                        option::edges(),
                         option::radiiMax(),
                         option::bins(100),
                         {.name = "angles",

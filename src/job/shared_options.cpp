@@ -83,6 +83,23 @@ Param radiiMax() {
 Param bins(double value) {
     return {.name = "bins", .type = ParamType::integer, .min = 1, .max = 1e6, .value = value, .doc = "radial bins"};
 }
+
+Param edges() {
+    return {.name = "edges",
+            .type = ParamType::numbers,
+            .unit = "mm",
+            .min = 0,
+            .max = unlimited,
+            .value = std::vector<double>{},
+            .doc = "edges of the radial bins"};
+}
+
+bool edgesGiven(const Options& options) {
+    if (!options.given("edges")) return false;
+    if (options.given("bins") || options.given("radii_max"))
+        throw usageError("--edges and --bins with --radii-max exclude each other", "give one of the two");
+    return true;
+}
 Param grid(std::string_view of_what) {
     return {.name = "grid",
             .type = ParamType::integer,

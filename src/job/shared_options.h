@@ -43,6 +43,10 @@ Param resume();
 Param radiiMax();
 Param bins(double value);
 
+/// The bins' edges themselves. edgesGiven() throws a usage Error where bins or their radius are given too.
+Param edges();
+bool edgesGiven(const Options& options);
+
 /// Cells per side of a square tally of something, and half of its side.
 Param grid(std::string_view of_what);
 Param gridExtent();

@@ -128,6 +128,14 @@ TEST_F(Program, ProcessesShareTheWalksOfAReference) {
     const Output one = run(half_space + "--walks 1e6"), three = run(half_space + "--walks 1e6", mpirun);
     ASSERT_EQ(three.exit_code, 0) << three.err;
     EXPECT_EQ(numbers(three.out), numbers(one.out));
+    for (const std::string body : {"sphere", "mesh sphere --scale 6 --radiance"}) {
+        const std::string reference = "reference " + body + " --material marble --walks 5e3 --size 16x16 --json";
+        const Output alone = run(reference), shared = run(reference, mpirun);
+        ASSERT_EQ(shared.exit_code, 0) << shared.err;
+        json from_one = json::parse(alone.out), from_three = json::parse(shared.out);
+        for (json* document : {&from_one, &from_three}) document->erase("seconds");
+        EXPECT_EQ(from_three, from_one) << body;
+    }
     const Output wrong = run(half_space + "--walks 0", mpirun);
     EXPECT_NE(wrong.exit_code, 0);
     EXPECT_THAT(wrong.err, HasSubstr("searchlight: "));
