@@ -53,7 +53,7 @@ double fallOff(const Medium& medium) {
 // R_d is shared out between evenly spread points and probes by the distance alone: points take
 //   w(r) = p_a / (p_a + p_p(r) / 2),
 // p_a and p_p being the expected numbers of samples per mm^2, and probes the rest. On a plane that is the balance
-// heuristic [VeachGuibas1995], as a half of the probes goes along its normal. Elsewhere it is as free of bias, as the
+// heuristic [Veach1995], as a half of the probes goes along its normal. Elsewhere it is as free of bias, as the
 // two shares always add up to R_d, and the points' share is again a function of distance: their sum costs what it cost.
 class Shares {
 public:

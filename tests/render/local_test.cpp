@@ -117,7 +117,7 @@ Difference besideTheSum(const Scene& scene, double samples) {
     renderer.setSettings(settings);
     const Image truth = renderer.render(quiet);
     settings.technique = "local";
-    settings.technique_options = {{"samples", samples}};
+    settings.technique_options = {{"samples", samples}, {"global_points", 20'000.0}};
     renderer.setSettings(settings);
     const Image local = renderer.render(quiet);
     double sum = 0, off = 0, squares = 0, norm = 0;
