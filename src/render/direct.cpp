@@ -34,8 +34,9 @@ constexpr int directions_per_draw = 16;
 constexpr std::size_t hits_at_once = 200'000;
 constexpr std::size_t queries_per_batch = 65'536;
 
-// Points of a pass that take about as long as its probes do.
-constexpr std::size_t table_points = 16'384, model_points = 512;
+// Points of a pass that take about as long as its probes do: by the table, where rays go from each into surroundings,
+// and where each is a query of the model.
+constexpr std::size_t table_points = 16'384, surrounded_points = 4'096, model_points = 512;
 
 int whole(const ParamValues& options, std::string_view name) {
     return static_cast<int>(std::get<double>(options.find(name)->second));
@@ -52,7 +53,7 @@ double fallOff(const Medium& medium) {
 // R_d is shared out between evenly spread points and probes by the distance alone: points take
 //   w(r) = p_a / (p_a + p_p(r) / 2),
 // p_a and p_p being the expected numbers of samples per mm^2, and probes the rest. On a plane that is the balance
-// heuristic [VeachGuibas1995], as a half of the probes goes along its normal. Elsewhere it is as free of bias, as the
+// heuristic [Veach1995], as a half of the probes goes along its normal. Elsewhere it is as free of bias, as the
 // two shares always add up to R_d, and the points' share is again a function of distance: their sum costs what it cost.
 class Shares {
 public:
@@ -87,7 +88,6 @@ public:
         passes_ = (passes + most_steps - 1) / most_steps;
         steps_ = (passes + passes_ - 1) / passes_;
         points_per_pass_ = static_cast<std::size_t>(whole(options, "pass_points"));
-        if (points_per_pass_ == 0) points_per_pass_ = input.profile ? table_points : model_points;
         by_points_ = sampling != "probes";
         const bool by_probes = sampling != "area";
         if (sampling == "probes" && !input.profile)
@@ -99,6 +99,8 @@ public:
         }
         seen_points_ = input.versions.points;
         light_.emplace(input);
+        if (points_per_pass_ == 0)
+            points_per_pass_ = !input.profile ? model_points : light_->draws() ? surrounded_points : table_points;
         profile_ = input.profile ? *input.profile
                                  : tabulate(*input.evaluator, *input.model, *input.medium, profile_error).profile;
         probes_.reset();
@@ -348,24 +350,26 @@ private:
 }  // namespace
 
 std::vector<Param> directOptions() {
-    return {{.name = "spp",
-             .type = ParamType::integer,
-             .min = 1,
-             .max = 1e6,
-             .value = 64.0,
-             .doc = "passes: in each, new points are drawn on the surface, and a probe per sample of the picture"},
-            {.name = "sampling",
-             .type = ParamType::choice,
-             .value = std::string("both"),
-             .choices = {"both", "area", "probes"},
-             .doc = "of the surface: evenly, around each sample by the profile, or both, each where it is better"},
-            {.name = "pass_points",
-             .type = ParamType::integer,
-             .min = 0,
-             .max = 1e6,
-             .value = 0.0,
-             .doc = "points that are drawn evenly over the surface in a pass; 0: 16384, or 512 where a model reads "
-                    "directions"}};
+    return {
+        {.name = "spp",
+         .type = ParamType::integer,
+         .min = 1,
+         .max = 1e6,
+         .value = 64.0,
+         .doc = "passes: in each, new points are drawn on the surface, and a probe per sample of the picture"},
+        {.name = "sampling",
+         .type = ParamType::choice,
+         .value = std::string("both"),
+         .choices = {"both", "area", "probes"},
+         .doc = "of the surface: evenly, around each sample by the profile, or both, each where it is better"},
+        {.name = "pass_points",
+         .type = ParamType::integer,
+         .min = 0,
+         .max = 1e6,
+         .value = 0.0,
+         .doc =
+             "points that are drawn evenly over the surface in a pass; 0: 16384, 4096 for shadowed surroundings, 512 "
+             "for a model that reads directions"}};
 }
 
 std::unique_ptr<Technique> makeDirect(gl::Context*) { return std::make_unique<Direct>(); }

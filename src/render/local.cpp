@@ -4,6 +4,7 @@
 #include <chrono>
 #include <optional>
 
+#include "geometry/point_cache.h"
 #include "geometry/surface_points.h"
 #include "render/exitance_sum.h"
 #include "render/screen/tangent_samples.h"
@@ -44,14 +45,7 @@ public:
         patches_ms_ = milliseconds(begin);
 
         const auto unseen_begin = Clock::now();
-        const int points = whole(options, "global_points");
-        if (object)
-            points_ = points > 0 ? samplePoints(input.object->mesh,
-                                                {.count = static_cast<std::size_t>(points),
-                                                 .seed = input.light.seed,
-                                                 .threads = input.threads},
-                                                observer)
-                                 : PointCloud();
+        if (object) choosePoints(whole(options, "global_points"), observer);
         if (object || light) lightPoints(observer);
         if (object || light || view) keepUnseen();
         if (unseen_ && (object || light || view || material)) table_.emplace(*input.profile, unseen_->meanArea());
@@ -102,6 +96,17 @@ private:
         if (total == Rgb{}) return;
         const int facing = samples / 4;
         sampler_.emplace(*input_.profile, samples - facing, facing, input_.light.seed);
+    }
+
+    void choosePoints(int count, Observer& observer) {
+        points_ = {};
+        if (count == 0) return;
+        const Object& object = *input_.object;
+        const PointOptions options{
+            .count = static_cast<std::size_t>(count), .seed = input_.light.seed, .threads = input_.threads};
+        points_ = input_.points_cache
+                      ? cachedPoints(object.mesh, object.content_hash, options, *input_.points_cache, observer).cloud
+                      : samplePoints(object.mesh, options, observer);
     }
 
     void lightPoints(Observer& observer) {
@@ -165,7 +170,7 @@ std::vector<Param> localOptions() {
              .type = ParamType::integer,
              .min = 0,
              .max = 1e6,
-             .value = 20'000.0,
+             .value = 100'000.0,
              .doc = "points of the surface, those of which count that are not seen; 0: what is not seen is dark"}};
 }
 

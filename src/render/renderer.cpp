@@ -263,6 +263,7 @@ struct Renderer::Impl {
                                     .medium = &material.medium,
                                     .profile = profile ? &*profile : nullptr,
                                     .light = lightOptions(),
+                                    .points_cache = settings.points_cache ? &*settings.points_cache : nullptr,
                                     .threads = settings.threads,
                                     .versions = {.points = runs(Stage::points) + runs(Stage::object),
                                                  .light = runs(Stage::irradiance),

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/cache_folder.h"
 #include "base/image.h"
 #include "base/observer.h"
 #include "base/param.h"
@@ -39,7 +40,8 @@ struct RenderInput {
     const Medium* medium = nullptr;
     const Profile* profile = nullptr;  ///< of a radial model, or of one that is taken for radial; null otherwise
     IrradianceOptions light;           ///< with these computeIrradiance() gives the light at any points of the object
-    int threads = 0;                   ///< 0: all
+    const CacheFolder* points_cache = nullptr;  ///< where points of a mesh are kept; null: nowhere
+    int threads = 0;                            ///< 0: all
     struct Versions {
         std::uint64_t points = 0, light = 0, view = 0, material = 0;
     } versions;

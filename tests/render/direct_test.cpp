@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "io/image_file.h"
 #include "model/plane.h"
 #include "render/direct/even_points.h"
 #include "render/direct/probe_hits.h"
@@ -119,33 +120,39 @@ TEST(Direct, ADirectionalModelOnAPlaneHasItsTotal) {
                 << i << " " << c;
 }
 
-struct Images {
+// One scene by both techniques, small.
+class Beside {
+public:
+    Beside(const Scene& scene, std::size_t points) : renderer_(shipped()) {
+        settings_ = {.width = 24,
+                     .height = 16,
+                     .points = points,
+                     .technique = "brute_force",
+                     .edge_samples = 1,
+                     .light_samples = 1024};
+        renderer_.setScene(scene);
+        renderer_.setSettings(settings_);
+        truth = renderer_.render(quiet_);
+    }
+
+    void run(const std::string& sampling, double spp) {
+        settings_.technique = "direct";
+        settings_.technique_options = {{"sampling", sampling}, {"spp", spp}, {"pass_points", 2048.0}};
+        renderer_.setSettings(settings_);
+        direct = renderer_.render(quiet_);
+        error = renderer_.standardError();
+    }
+
     Image direct, error, truth;
+
+private:
+    Observer quiet_;
+    Renderer renderer_;
+    RenderSettings settings_;
 };
 
-Images besideBruteForce(Scene scene, const std::string& sampling, double spp, std::size_t points) {
-    Observer quiet;
-    RenderSettings settings{.width = 24,
-                            .height = 16,
-                            .points = points,
-                            .technique = "brute_force",
-                            .edge_samples = 1,
-                            .light_samples = 4096};
-    Renderer renderer(shipped());
-    renderer.setScene(scene);
-    renderer.setSettings(settings);
-    Images images;
-    images.truth = renderer.render(quiet);
-    settings.technique = "direct";
-    settings.technique_options = {{"sampling", sampling}, {"spp", spp}};
-    renderer.setSettings(settings);
-    images.direct = renderer.render(quiet);
-    images.error = renderer.standardError();
-    return images;
-}
-
 // Root mean square of the difference over its standard error; `floor`: what the other one may err, relative.
-double spread(const Images& images, double floor) {
+double spread(const Beside& images, double floor) {
     double sum = 0, count = 0;
     for (std::size_t i = 0; i < images.truth.pixels.size(); ++i) {
         const Rgba &a = images.direct.pixels[i], &b = images.truth.pixels[i], &e = images.error.pixels[i];
@@ -164,10 +171,11 @@ TEST(Direct, AgreesWithTheSumOverPointsOnAKnot) {
     scene.object = "torus_knot";
     scene.scale = 20;
     scene.lights = {DirectionalLight{.direction = {1, 1, 1}}, PointLight{.position = {-1, 0.5, 1}}};
+    Beside images(scene, 30'000);
     for (const char* sampling : {"area", "probes", "both"}) {
-        const Images images = besideBruteForce(scene, sampling, 64, 60'000);
+        images.run(sampling, 64);
         // 1 for honest errors. Points are shared by all pixels, so their 32 steps count as few numbers. 1 %: what
-        // 60,000 points miss at shadow borders.
+        // 30,000 points miss at shadow borders.
         EXPECT_LT(spread(images, 0.01), 1.5) << sampling;
     }
 }
@@ -178,7 +186,32 @@ TEST(Direct, AgreesForAModelThatReadsDirections) {
     scene.scale = 20;
     scene.model.id = "directional_dipole";
     scene.lights = {DirectionalLight{.direction = {1, 1, 1}}};
-    EXPECT_LT(spread(besideBruteForce(scene, "both", 32, 8'000), 0.03), 1.5);
+    Beside images(scene, 8'000);
+    images.run("both", 16);
+    EXPECT_LT(spread(images, 0.03), 1.5);  // 3 %: 8,000 points
+}
+
+TEST(Direct, DrawsDirectionsFromSurroundingsThatTheObjectShadows) {
+    // A bright window in dark surroundings.
+    const std::string path = testing::TempDir() + "direct_window.pfm";
+    Image window(32, 16, {0.1f, 0.1f, 0.1f, 1});
+    for (int y = 2; y < 6; ++y)
+        for (int x = 20; x < 25; ++x) window.at(x, y) = {20, 15, 10, 1};
+    writeImage(path, {window});
+    Scene scene;
+    scene.object = "torus_knot";
+    scene.scale = 20;
+    scene.lights = {EnvironmentLight{.path = path, .occlusion = true}};
+    Beside images(scene, 10'000);
+    images.run("both", 32);
+    // 2 %: 10,000 points, and 1,024 directions that they share.
+    EXPECT_LT(spread(images, 0.02), 1.5);
+    double off = 0, sum = 0;
+    for (std::size_t i = 0; i < images.truth.pixels.size(); ++i) {
+        off += images.direct.pixels[i].g - images.truth.pixels[i].g;
+        sum += images.truth.pixels[i].g;
+    }
+    EXPECT_NEAR(off / sum, 0, 0.02);
 }
 
 TEST(EvenPoints, AreAsDenseEverywhereAndStratified) {

@@ -4,8 +4,10 @@
 #include <numbers>
 #include <set>
 
+#include "render/renderer.h"
 #include "render/screen/blue_noise.h"
 #include "render/screen/tangent_samples.h"
+#include "scene/materials.h"
 #include "screen_plane.h"
 
 namespace searchlight {
@@ -60,9 +62,8 @@ TEST(TangentSamples, EvenLightOnAPlaneLeavesTheTotalAtAnyTiltAndWidth) {
             const std::vector<Rgbf> light(plane.visible.positions.size(), Rgbf{1, 1, 1});
             const std::vector<Rgbf> exitance = gathered(plane, profile, light, 48, 16);
             const double mean = meanOf(plane, 90, [&](std::size_t i) { return exitance[i].r; });
-            // 3e-3: without uniform samples nothing would scatter; with them a mean over 400 pixels does.
-            EXPECT_NEAR(mean, profile.total().r, 3e-3) << tilt << " " << pixels;
-            EXPECT_NEAR(exitance[plane.middle()].b, profile.total().b, 0.15) << tilt << " " << pixels;
+            // Of 400 pixels that scatter by 1 %, as two planes share the samples: four standard errors.
+            EXPECT_NEAR(mean, profile.total().r, 2e-3) << tilt << " " << pixels;
         }
 }
 
@@ -71,8 +72,7 @@ TEST(TangentSamples, ImportanceAloneHasNoNoiseUnderEvenLight) {
     const Profile profile = gaussian(3);
     const std::vector<Rgbf> light(plane.visible.positions.size(), Rgbf{1, 1, 1});
     const std::vector<Rgbf> exitance = gathered(plane, profile, light, 16, 0);
-    // 2,048 annuli, in which the mean density stands for the density.
-    EXPECT_NEAR(exitance[plane.middle()].r, 1, 0.01);
+    EXPECT_NEAR(exitance[plane.middle()].r, 1, 1e-4);  // floats
 }
 
 TEST(TangentSamples, AStepOfLightBecomesTheErrorFunction) {
@@ -96,6 +96,71 @@ TEST(TangentSamples, AStepOfLightBecomesTheErrorFunction) {
         EXPECT_NEAR(off / count, 0, 3e-3) << tilt;
         EXPECT_LT(std::sqrt(squares / count), 0.04) << tilt;
     }
+}
+
+struct Difference {
+    double mean = 0, rmse = 0;  ///< relative, of green
+};
+
+// The picture of the technique beside that of the hierarchical sum.
+Difference besideTheSum(const Scene& scene, double samples) {
+    Observer quiet;
+    RenderSettings settings{.width = 160, .height = 120, .points = 40'000, .edge_samples = 1};
+    settings.technique_options = {{"error", 0.002}};
+    Renderer renderer([](const Scene& of) {
+        RenderMaterial material{loadModel(of.model.id), resolveMaterial(of.material).medium, nullptr};
+        material.evaluator = makeNativeEvaluator(material.model);
+        material.evaluator->set(material.medium, {});
+        return material;
+    });
+    renderer.setScene(scene);
+    renderer.setSettings(settings);
+    const Image truth = renderer.render(quiet);
+    settings.technique = "local";
+    settings.technique_options = {{"samples", samples}, {"global_points", 20'000.0}};
+    renderer.setSettings(settings);
+    const Image local = renderer.render(quiet);
+    double sum = 0, off = 0, squares = 0, norm = 0;
+    for (std::size_t i = 0; i < truth.pixels.size(); ++i) {
+        const double difference = local.pixels[i].g - truth.pixels[i].g;
+        sum += truth.pixels[i].g;
+        off += difference;
+        squares += difference * difference;
+        norm += truth.pixels[i].g * truth.pixels[i].g;
+    }
+    return {off / sum, std::sqrt(squares / norm)};
+}
+
+Scene lit(const char* object, Vec3 from) {
+    Scene scene;
+    scene.object = object;
+    scene.scale = 20;
+    scene.material.id = "marble";
+    scene.lights = {DirectionalLight{.direction = from}};
+    return scene;
+}
+
+// The bands that docs/surface-sampling.md states, at a quarter of its resolution.
+TEST(Local, ConvergesOnASphere) {
+    const Difference few = besideTheSum(lit("sphere", {1, 1, 1}), 64);
+    EXPECT_NEAR(few.mean, 0, 0.005);
+    EXPECT_LT(few.rmse, 0.05);
+    const Difference many = besideTheSum(lit("sphere", {1, 1, 1}), 1024);
+    EXPECT_NEAR(many.mean, 0, 0.005);
+    EXPECT_LT(many.rmse, 0.015);  // n^-1/2 would leave a quarter of the noise; 40,000 points differ by 0.5 %
+}
+
+TEST(Local, CountsLightThatEntersOutOfSight) {
+    // Lit from behind: nearly all of it is not seen to enter.
+    const Difference back = besideTheSum(lit("sphere", {-0.3, 0.2, -1}), 256);
+    EXPECT_NEAR(back.mean, 0, 0.02);
+    EXPECT_LT(back.rmse, 0.05);
+}
+
+TEST(Local, HidesNothingAtEdgesOfDepth) {
+    const Difference knot = besideTheSum(lit("torus_knot", {1, 1, 1}), 1024);
+    EXPECT_NEAR(knot.mean, 0, 0.01);
+    EXPECT_LT(knot.rmse, 0.05);
 }
 
 TEST(BlueNoise, HasEachRankOnceAndNeighboursThatDiffer) {

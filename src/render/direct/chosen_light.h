@@ -20,6 +20,9 @@ public:
     /// Keeps what `input` points to. Throws what Environment throws.
     explicit ChosenLight(const RenderInput& input);
 
+    /// Whether some environment is drawn from, so that each point costs as many rays as there are directions.
+    bool draws() const { return !drawn_.empty(); }
+
     /// `directions`: per environment, at least 1. Throws interruptedError() when cancelled.
     Irradiance at(const SurfacePoints& points, int directions, std::uint64_t seed, Observer& observer) const;
 

@@ -325,11 +325,10 @@ ScreenPatches screenPatches(const View& view, const VisibleSurface& visible, int
         if (i >= samples.standing) continue;
         const Vec3 x{patches.position[0][i], patches.position[1][i], patches.position[2][i]};
         const Vec3 away = normalize(x);
-        // A patch that is seen edge on has no area that a pixel could tell: it is turned towards the eye.
+        // A patch that is seen edge on has no area that a pixel could tell: its light is left to others.
         constexpr double least_cosine = 0.1;
-        Vec3 facing = -1 * n;
-        if (const double cosine = dot(facing, away); cosine < least_cosine)
-            facing = normalize(facing + (least_cosine - cosine) * away);
+        const Vec3 facing = -1 * n;
+        if (dot(facing, away) < least_cosine) continue;
         const double h = dot(facing, x);
         const int column = static_cast<int>(patches.pixel[i] % static_cast<std::uint32_t>(view.width));
         const int row = static_cast<int>(patches.pixel[i] / static_cast<std::uint32_t>(view.width));
@@ -368,9 +367,9 @@ bool isSeen(const ScreenPatches& patches, Vec3f position, Vec3f normal) {
     if (!(column >= 0 && column < patches.width && row >= 0 && row < patches.height)) return false;
     const float* cell = &patches.cells[patches.cellAt(static_cast<int>(column), static_cast<int>(row))];
     if (!(cell[3] > 0)) return false;
-    // Behind its patch by more than a curved surface may be within three pixels, it is hidden.
+    // Behind its patch by more than the patch itself rises in a pixel, it is hidden.
     const double cosine = cell[3] / length(x);
-    return x.x * cell[0] + x.y * cell[1] + x.z * cell[2] < 1 + 3 / (patches.focal * cosine);
+    return x.x * cell[0] + x.y * cell[1] + x.z * cell[2] < 1 + 1 / (patches.focal * cosine);
 }
 
 TangentSampler::TangentSampler(const Profile& profile, int tangent, int facing, std::uint64_t seed)

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "base/observer.h"
@@ -34,8 +35,7 @@ struct ScreenPatches {
     }
 };
 
-/// All that does not depend on light. Patches are seen at no less than 1/10 in cosine: what is seen more obliquely
-/// counts as smaller than it is. `view` made `visible`.
+/// All that does not depend on light. What is seen at less than 1/10 in cosine is no patch. `view` made `visible`.
 ScreenPatches screenPatches(const View& view, const VisibleSurface& visible, int threads);
 
 /// `light`: flux per mm^2 that crossed into the medium, per sample of visible. A pixel's is that of its widest sample,
