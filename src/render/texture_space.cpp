@@ -39,6 +39,10 @@ AtlasOptions atlasOptions(const ParamValues& options, int threads) {
             .threads = threads};
 }
 
+// Of a texel, times the mean, from which on a user should know: it blurs light like an atlas with a quarter of the
+// side.
+constexpr double much_surface = 16;
+
 // Pairs of a receiver and a sample in one slice of a device's work.
 constexpr std::size_t slice_pairs = 20'000'000;
 
@@ -53,19 +57,17 @@ public:
         const bool surface = refreshAtlas(input, options, observer);
         const bool new_light = refreshLight(input, surface, observer);
         if (new_light || now(input, options) != drawn_from_) draw(input, options, observer);
-        const bool view = seen_.view != input.versions.view || !viewed_;
         input_ = input;
         seen_ = input.versions;
-        viewed_ = true;
         exitance_.assign(input.visible->positions.size(), {});
         next_ = 0;
         if (samples_.dark || exitance_.empty()) return;
         if (!input.profile)
             prepareDirectional(observer);
         else if (device_)
-            prepareDevice(options, view);
+            prepareDevice(options);
         else
-            prepareRadial(options, view);
+            prepareRadial(options);
     }
 
     bool step(Observer& observer) override {
@@ -105,6 +107,10 @@ public:
         if (!atlas.fault.empty())
             report.notes.push_back(
                 fmt::format("The object's uvs are not used, but an atlas made for it: {}.", atlas.fault));
+        if (atlas.from_file && atlas.stretch.largest_area > much_surface)
+            report.notes.push_back(fmt::format(
+                "The object's uvs are uneven: a texel stands for up to {:.0f} times the mean area; --uvs own is even.",
+                atlas.stretch.largest_area));
         return report;
     }
 
@@ -164,7 +170,7 @@ private:
 
     double area() const { return std::accumulate(map_.cells.areas.begin(), map_.cells.areas.end(), 0.0); }
 
-    void prepareRadial(const ParamValues& options, bool view) {
+    void prepareRadial(const ParamValues& options) {
         const auto begin = Clock::now();
         if (!points_) {
             points_.emplace(samples_.points, input_.threads);
@@ -174,7 +180,8 @@ private:
         const std::string table = fmt::format("{} {}", input_.versions.material, cell);
         if (table != table_from_) table_.emplace(*input_.profile, cell);
         table_from_ = table;
-        if (view || !receivers_) receivers_.emplace(input_.visible->positions, input_.threads);
+        if (receivers_of_ != input_.versions.view) receivers_.emplace(input_.visible->positions, input_.threads);
+        receivers_of_ = input_.versions.view;
         sum_options_ = {.error = tree_error,
                         .one_by_one = std::get<std::string>(options.at("sum")) == "loop",
                         .threads = input_.threads,
@@ -183,15 +190,15 @@ private:
         stage_ms_["tree"] = milliseconds(begin);
     }
 
-    void prepareDevice(const ParamValues& options, bool view) {
+    void prepareDevice(const ParamValues& options) {
         const auto begin = Clock::now();
         device_->setSamples(samples_.points, samples_.irradiance.transmitted);
         const double cell = cellArea(options);
         const std::string table = fmt::format("{} {}", input_.versions.material, cell);
         if (table != table_from_) device_->setProfile(*input_.profile, cell, area());
         table_from_ = table;
-        if (view || !on_device_) device_->setReceivers(input_.visible->positions);
-        on_device_ = true;
+        if (receivers_of_ != input_.versions.view) device_->setReceivers(input_.visible->positions);
+        receivers_of_ = input_.versions.view;
         stage_ms_["upload"] = milliseconds(begin);
     }
 
@@ -224,8 +231,8 @@ private:
     std::optional<LitAtlas> lit_;
     TextureSamples samples_;
     std::uint64_t draws_ = 0;
-    bool viewed_ = false, on_device_ = false;
-    std::size_t next_ = 0;  // receiver of the device's next slice
+    std::optional<std::uint64_t> receivers_of_;  // the view that they are of
+    std::size_t next_ = 0;                       // receiver of the device's next slice
 
     std::optional<PointTree> points_;
     std::optional<ReceiverTree> receivers_;

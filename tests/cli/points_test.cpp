@@ -38,5 +38,34 @@ TEST_F(Program, MeshReportsAndConverts) {
     EXPECT_THAT(unknown.err, HasSubstr("nowhere.obj: no such file"));
 }
 
+TEST_F(Program, MeshGetsAnAtlasThatIsReadBack) {
+    const Output written = run("mesh torus_knot --atlas 128 --uvs own --picture charts.png -o knot.obj --json");
+    ASSERT_EQ(written.exit_code, 0) << written.err;
+    const json atlas = json::parse(written.out).at("atlas");
+    EXPECT_FALSE(atlas.at("from_file"));
+    EXPECT_LT(atlas.at("stretch_l2"), 1.1);
+    EXPECT_TRUE(std::filesystem::exists(folder() / "charts.png"));
+    const Output again = run("mesh knot.obj --atlas 128 --uvs file --json");
+    ASSERT_EQ(again.exit_code, 0) << again.err;
+    EXPECT_EQ(json::parse(again.out).at("atlas").at("charts"), atlas.at("charts"));
+    const Output none = run("mesh torus_knot --picture charts.png");
+    EXPECT_EQ(none.exit_code, 2);
+    EXPECT_THAT(none.err, HasSubstr("--atlas 256 makes one"));
+}
+
+TEST_F(Program, RendersInTextureSpaceAndReportsTheAtlas) {
+    const Output written = run(
+        "render torus_knot --technique texture-space --samples 400 --atlas 64 --uvs own --size 48x32 -o a.exr --json");
+    ASSERT_EQ(written.exit_code, 0) << written.err;
+    const json document = json::parse(written.out);
+    EXPECT_EQ(document.at("technique"), "texture-space");
+    EXPECT_GT(document.at("charts"), 1);
+    EXPECT_GT(document.at("atlas_fill"), 0.3);
+    EXPECT_TRUE(document.at("error_bound").is_null());
+    const Output refused = run("render statue --technique texture-space --atlas 16 --uvs own --size 48x32 -o b.exr");
+    EXPECT_NE(refused.exit_code, 0);
+    EXPECT_THAT(refused.err, HasSubstr("no room"));
+}
+
 }  // namespace
 }  // namespace searchlight

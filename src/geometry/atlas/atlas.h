@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/image.h"
 #include "base/observer.h"
 #include "geometry/atlas/stretch.h"
 #include "scene/mesh.h"
@@ -51,5 +52,9 @@ Atlas makeAtlas(const Mesh& mesh, const AtlasOptions& options, Observer& observe
 
 /// The mesh with the atlas as its uvs; vertices on the borders of charts are doubled.
 Mesh withAtlasUvs(const Mesh& mesh, const Atlas& atlas);
+
+/// The charts, each in a colour of its own, darker where a texel stands for more surface; transparent between them.
+/// `scale` pixels a texel.
+Image atlasPicture(const Mesh& mesh, const Atlas& atlas, int scale);
 
 }  // namespace searchlight

@@ -17,7 +17,7 @@ public:
     explicit TextureGl(gl::Context& context);
 
     /// What CellChooser chooses, but for rounding to float: sums of four by four up to one, and down again for each of
-    /// `along` [Chang2007, Alg. 3.1, with the errors of its arithmetic mended]. Weights from 0 on, not all 0.
+    /// `along` [Chang2007, Alg. 3.1, but that a dark cell is never taken]. Weights from 0 on, not all 0.
     std::vector<CellChoice> choose(std::span<const double> weights, std::span<const double> along);
 
     void setSamples(const PointCloud& points, std::span<const Rgbf> transmitted);    ///< flux per mm^2 of their areas
