@@ -88,7 +88,7 @@ void ObjectView::paintLabels(QPainter& painter) {
             else if (textOption(state, "against") == "reference")
                 label += tr(", walking...");
             else if (shown.partly)
-                label += tr(", being summed...");
+                label += pictures_.working() ? tr(", being summed...") : tr(", summed in part");
             QColor dot = colors.muted;
             const QString against = QString::fromStdString(textOption(state, "against"));
             if (against.startsWith("model ") && against.mid(6).toInt() < static_cast<int>(state.models.size()))
