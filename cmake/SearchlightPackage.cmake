@@ -7,13 +7,19 @@ if(TARGET searchlight-gui)
   install(FILES ${resources}/searchlight.desktop DESTINATION ${CMAKE_INSTALL_DATADIR}/applications)
   install(FILES ${resources}/searchlight.svg DESTINATION ${CMAKE_INSTALL_DATADIR}/icons/hicolor/scalable/apps)
 endif()
-install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/THIRD_PARTY.md
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/THIRD_PARTY.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md
   DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/searchlight)
+install(FILES ${PROJECT_SOURCE_DIR}/cmake/debian_copyright
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/searchlight RENAME copyright)
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME searchlight)
 set(CPACK_PACKAGE_CONTACT "Searchlight contributors")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "laboratory for BSSRDFs: subsurface scattering models")
+set(CPACK_PACKAGE_DESCRIPTION "Develops, displays, compares and validates models of light in translucent
+things: any model with any technique, on one scene, beside a Monte Carlo
+reference that carries its own error bar. searchlight is the command line,
+searchlight-gui the window.")
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)

@@ -61,9 +61,10 @@ public:
         }
     }
 
-    Drawing draw() {
+    Drawing draw(double width, bool maps) {
+        draws_maps_ = maps;
         Drawing drawing;
-        drawing.width = columns_ == 1 ? 640 : columns_ == 2 ? 820 : columns_ == 3 ? 960 : 1080;
+        drawing.width = width > 0 ? width : columns_ == 1 ? 640 : columns_ == 2 ? 820 : columns_ == 3 ? 960 : 1080;
         const double bar = has_bar_ ? bar_gap + colorBarWidth(color_) : 0;
         std::vector<double> gutters;
         double taken = 2 * page_margin + bar;
@@ -177,7 +178,7 @@ private:
                                   Anchor::middle,
                                   ink,
                                   true});
-        if (panel.map) drawMap(shapes, *panel.map, color_, frame);
+        if (panel.map && draws_maps_) drawMap(shapes, *panel.map, color_, frame);
         if (!hasAxes(panel)) return;
         const PlotArea plot(panel, frame, ranges_[i], x_ticks_[i], y_ticks_[i]);
         if (!panel.map) plot.drawGrid(shapes);
@@ -220,7 +221,7 @@ private:
     const Figure& figure_;
     std::vector<const Figure*> panels_;
     std::size_t columns_ = 1, rows_ = 1;
-    bool has_bar_ = false;
+    bool has_bar_ = false, draws_maps_ = true;
     Axis color_;
     std::vector<FigureRange> ranges_;
     std::vector<AxisTicks> x_ticks_, y_ticks_;
@@ -228,6 +229,6 @@ private:
 
 }  // namespace
 
-Drawing layoutPanels(const Figure& figure) { return Page(figure).draw(); }
+Drawing layoutPanels(const Figure& figure, double width, bool maps) { return Page(figure).draw(width, maps); }
 
 }  // namespace searchlight

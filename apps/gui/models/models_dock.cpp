@@ -3,16 +3,15 @@
 #include <QDockWidget>
 #include <QFileDialog>
 #include <QHeaderView>
-#include <QLabel>
 #include <QMenu>
 #include <QPainter>
-#include <QRegularExpression>
 #include <QSplitter>
 #include <QToolButton>
 #include <QTreeWidget>
 #include <QVBoxLayout>
 
 #include "base/files.h"
+#include "gui/models/checks_panel.h"
 #include "gui/models/model_files.h"
 #include "gui/models/model_status.h"
 #include "gui/window/theme.h"
@@ -57,7 +56,7 @@ public:
         layout->addLayout(makeButtons());
         auto* splitter = new QSplitter(Qt::Vertical, this);
         splitter->addWidget(makeList());
-        splitter->addWidget(makeChecks());
+        splitter->addWidget(new ChecksPanel(desk, this));
         splitter->setStretchFactor(0, 3);
         splitter->setStretchFactor(1, 2);
         splitter->setChildrenCollapsible(false);
@@ -157,35 +156,6 @@ private:
         return list_;
     }
 
-    QWidget* makeChecks() {
-        auto* box = new QWidget(this);
-        auto* layout = new QVBoxLayout(box);
-        layout->setContentsMargins(0, 0, 0, 0);
-        layout->setSpacing(Space::xs);
-        auto* row = new QHBoxLayout;
-        auto* run = button(tr("Check"), QStringLiteral("check"),
-                           tr("Compile, evaluate and integrate the model: does it keep what it promises?"),
-                           QStringLiteral("models.check"));
-        connect(run, &QToolButton::clicked, this, [this] { check(); });
-        summary_ = new QLabel(tr("Not checked yet"), box);
-        summary_->setObjectName(QStringLiteral("models.summary"));
-        row->addWidget(run);
-        row->addWidget(summary_, 1);
-        layout->addLayout(row);
-        checks_ = new QTreeWidget(box);
-        checks_->setObjectName(QStringLiteral("models.checks"));
-        checks_->setAccessibleName(tr("Results of the checks"));
-        checks_->setColumnCount(2);
-        checks_->setHeaderHidden(true);
-        checks_->setRootIsDecorated(false);
-        checks_->setFrameShape(QFrame::NoFrame);
-        checks_->setSelectionMode(QAbstractItemView::NoSelection);
-        checks_->setWordWrap(true);
-        checks_->header()->setSectionResizeMode(0, QHeaderView::ResizeToContents);
-        layout->addWidget(checks_, 1);
-        return box;
-    }
-
     void fill() {
         filling_ = true;
         const State& state = desk_.workspace.state();
@@ -260,53 +230,8 @@ private:
         }
     }
 
-    void check() {
-        Job job;
-        job.command = "check";
-        const std::string id = desk_.workspace.state().activeModel().model.id;
-        job.options["model"] = id;
-        summary_->setText(tr("Checking…"));
-        checks_->clear();
-        desk_.tasks.start(
-            {.lane = "checks", .key = "check", .title = tr("Checking the model"), .receiver = this},
-            [this, job](TaskContext& context) {
-                const JobResult result = run(job, context.engine(), context);
-                context.publish([this, text = QString::fromStdString(result.text), passed = result.passed] {
-                    showChecks(text, passed);
-                });
-            },
-            [this](const Error& error) {
-                summary_->setText(tr("It does not run"));
-                auto* item = new QTreeWidgetItem(checks_);
-                item->setIcon(0, desk_.theme.icon(QStringLiteral("warning")));
-                item->setText(1, QString::fromUtf8(error.what()));
-            });
-    }
-
-    // "  pass  finite   ..." as a row; the line with the counts is the summary.
-    void showChecks(const QString& text, bool passed) {
-        const QRegularExpression row(QStringLiteral("^\\s+(pass|FAIL|note|skip)\\s+(\\S+)\\s*(.*)$"));
-        int failed = 0, all = 0;
-        for (const QString& line : text.split(QLatin1Char('\n'))) {
-            const QRegularExpressionMatch match = row.match(line);
-            if (!match.hasMatch()) continue;
-            auto* item = new QTreeWidgetItem(checks_);
-            const bool fail = match.captured(1) == QLatin1String("FAIL");
-            failed += fail ? 1 : 0;
-            ++all;
-            item->setIcon(0, desk_.theme.icon(QLatin1String(fail ? "warning" : "check")));
-            item->setText(0, match.captured(2));
-            item->setText(1, match.captured(3));
-            item->setToolTip(1, match.captured(3));
-            item->setData(0, Qt::AccessibleTextRole, match.captured(1) + QLatin1Char(' ') + match.captured(2));
-            if (fail) item->setForeground(0, desk_.theme.colors().error);
-        }
-        summary_->setText(passed ? tr("%1 checks, none failed").arg(all) : tr("%1 of %2 failed").arg(failed).arg(all));
-    }
-
     Desk& desk_;
-    QTreeWidget *list_ = nullptr, *checks_ = nullptr;
-    QLabel* summary_ = nullptr;
+    QTreeWidget* list_ = nullptr;
     bool filling_ = false;
 };
 

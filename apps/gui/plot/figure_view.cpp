@@ -8,9 +8,9 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "draw/figure_layout.h"
 #include "draw/figure_texts.h"
 #include "draw/legend.h"
+#include "draw/panel_layout.h"
 #include "draw/plot_area.h"
 #include "draw/text_width.h"
 #include "gui/plot/figure_ink.h"
@@ -52,7 +52,6 @@ FigureView::FigureView(Theme& theme, QWidget* parent) : QWidget(parent), theme_(
     setMouseTracking(true);
     setFocusPolicy(Qt::StrongFocus);
     setAccessibleName(tr("Searchlight plot"));
-    setToolTip(tr("Wheel: zoom. Drag: move. Double click: all of it."));
     connect(&theme_, &Theme::changed, this, qOverload<>(&QWidget::update));
 }
 
@@ -66,6 +65,7 @@ void FigureView::setFigure(Figure figure, const QString& empty_text) {
     figure_ = std::move(figure);
     empty_text_ = empty_text;
     panels_.reset();
+    setToolTip(isSingle() ? tr("Wheel: zoom. Drag: move. Double click: all of it.") : QString());
     setCursor(cursor_);
     QString heard = QString::fromStdString(figure_.title);
     for (const Series& series : figure_.series) heard += QStringLiteral("; ") + QString::fromStdString(series.label);
@@ -210,21 +210,29 @@ void FigureView::paintSingle(QPainter& painter) {
     paintReadOut(painter, theme_, read_out_, *cursor_, QRectF(frame.left, frame.top, frame.width(), frame.height()));
 }
 
-// As many columns as make the panels largest in this window; its caption is for paper.
+// The columns and the width of the page that fill this window best; below 0.7 of its size text cannot be read. The
+// caption is for paper.
 const Drawing& FigureView::panels() {
     if (panels_ && panels_size_ == size()) return *panels_;
     Figure figure = figure_;
     figure.caption.clear();
-    double best = 0;
-    for (int columns = 1; columns <= std::max(1, static_cast<int>(figure_.panels.size())); ++columns) {
-        figure.columns = columns;
-        Drawing drawing = layoutFigure(figure);
-        const double scale = std::min(width() / drawing.width, height() / drawing.height);
-        if (scale <= best) continue;
-        best = scale;
-        drawing.shapes.erase(drawing.shapes.begin());  // the paper
-        panels_ = std::move(drawing);
-    }
+    double best = 0, best_page = 0;
+    int best_columns = 1;
+    for (int columns = 1; columns <= std::max(1, static_cast<int>(figure.panels.size())); ++columns)
+        for (const double page : {0.0, 900.0, 800.0, 700.0, 600.0, 500.0}) {
+            if (page > 0 && page < 200 * columns) continue;
+            figure.columns = columns;
+            const Drawing drawing = layoutPanels(figure, page, false);
+            const double scale = std::min(width() / drawing.width, height() / drawing.height);
+            const double score = 1e4 * std::min(scale, 0.7) + scale * drawing.width;
+            if (score <= best) continue;
+            best = score;
+            best_page = page;
+            best_columns = columns;
+        }
+    figure.columns = best_columns;
+    panels_ = layoutPanels(figure, best_page);
+    panels_->shapes.erase(panels_->shapes.begin());  // the paper
     panels_size_ = size();
     return *panels_;
 }

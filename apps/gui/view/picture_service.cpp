@@ -60,10 +60,11 @@ PictureService::PictureService(Desk& desk, QObject* parent)
     });
     // A user may cancel a picture: then nothing is delivered, and the next change begins anew.
     connect(&desk_.tasks, &Tasks::statusChanged, this, [this] {
-        if ((!running_preview_ && !running_full_) || desk_.tasks.busy("picture", "picture")) return;
+        if (!working() || desk_.tasks.busy("picture", "picture")) return;
         running_preview_ = running_full_ = false;
         desk_.tasks.holdBackground(false);
-        if (pending_) submit(true);
+        if (pending_) return submit(true);
+        emit pictureShown();
     });
     // The first picture goes before what a person looks at later; a window that is never shown holds nothing up.
     desk_.tasks.holdBackground(true);
@@ -136,8 +137,8 @@ PictureService::Request PictureService::requestOf(bool moving) const {
             request.b = request.a;
             request.b->technique = what.toStdString();
             request.b->technique_options.clear();
-            request.label_b = what;
-            request.label_a = QString::fromStdString(state.technique);
+            request.label_b = QString(what).replace('_', ' ');
+            request.label_a = QString::fromStdString(state.technique).replace('_', ' ');
         } else {
             request.with_reference = true;
             // The walks know what leaves the object, and nothing of what stands around it.

@@ -42,6 +42,8 @@ public:
     void setSize(QSize size);
 
     const ViewPicture& shown() const { return shown_; }
+    /// A picture is being made.
+    bool working() const { return running_preview_ || running_full_; }
     /// The last picture is the one of the state, in full.
     bool atRest() const;
 

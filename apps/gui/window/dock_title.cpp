@@ -3,7 +3,10 @@
 #include <QDockWidget>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QScreen>
+#include <QStyle>
 #include <QToolButton>
+#include <algorithm>
 
 #include "gui/window/theme.h"
 
@@ -31,8 +34,23 @@ DockTitle::DockTitle(Theme& theme, QDockWidget* dock) : QWidget(dock) {
         row->addWidget(made);
         return made;
     };
-    connect(button("float", tr("Pop out or in")), &QToolButton::clicked, dock,
-            [dock] { dock->setFloating(!dock->isFloating()); });
+    connect(button("float", tr("Pop out or in")), &QToolButton::clicked, dock, [dock] {
+        const QRect before(dock->mapToGlobal(QPoint()), dock->size());
+        dock->setFloating(!dock->isFloating());
+        if (!dock->isFloating() || !dock->screen()) return;
+        // Larger than its place, or nobody would see that it stands in front of it.
+        const QSize size = before.size().expandedTo({640, 440});
+        const QRect screen = dock->screen()->availableGeometry();
+        QRect place(before.topLeft() - QPoint(Space::xl, Space::xl), size);
+        place.moveLeft(std::max(screen.left(), std::min(place.left(), screen.right() - size.width())));
+        place.moveTop(std::max(screen.top(), std::min(place.top(), screen.bottom() - size.height())));
+        dock->setGeometry(place);
+    });
+    connect(dock, &QDockWidget::topLevelChanged, this, [this](bool floating) {
+        setProperty("floating", floating);
+        style()->unpolish(this);
+        style()->polish(this);
+    });
     connect(button("close", tr("Close")), &QToolButton::clicked, dock, &QWidget::close);
 }
 
