@@ -256,7 +256,8 @@ private:
         Estimate e = sums_.estimate(slot, walks_);
         double least = one_event / static_cast<double>(walks_);
         if (foreseen(slot))
-            least = e.mean == 0 ? least : 0;
+            // Where less than a thousandth of an exit was foreseen, what leaves may come by ways that no walk took.
+            least = e.mean < 1e-3 * least ? least : 0;
         else if (best_ != nullptr)
             least /= best_->beside;
         e.standard_error = std::max(e.standard_error, least);
