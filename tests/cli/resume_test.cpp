@@ -128,7 +128,7 @@ TEST_F(Program, ProcessesShareTheWalksOfAReference) {
     const Output one = run(half_space + "--walks 1e6"), three = run(half_space + "--walks 1e6", mpirun);
     ASSERT_EQ(three.exit_code, 0) << three.err;
     EXPECT_EQ(numbers(three.out), numbers(one.out));
-    for (const std::string body : {"sphere", "mesh sphere --scale 6 --radiance"}) {
+    for (const std::string body : {"sphere", "mesh statue --scale 6 --radiance"}) {
         const std::string reference = "reference " + body + " --material marble --walks 5e3 --size 16x16 --json";
         const Output alone = run(reference), shared = run(reference, mpirun);
         ASSERT_EQ(shared.exit_code, 0) << shared.err;

@@ -3,6 +3,7 @@
 
 #include "judge.h"
 #include "mesh_shapes.h"
+#include "transport/mesh/body_walk.h"
 
 namespace searchlight {
 namespace {
@@ -32,6 +33,56 @@ void compareWalks(Judge& judge, const std::string& what, const Body& body, const
         compare(judge, fmt::format("{}, cell {}", what, cell), {with.exitance[cell], with.standard_error[cell], 1},
                 {without.exitance[cell], without.standard_error[cell], 1}, exits);
     }
+}
+
+// Walks from the middle of a ball, where the first step is the largest: means over the walks of where and how they
+// leave.
+class FromTheMiddle : public WalkSource {
+public:
+    explicit FromTheMiddle(int walks) : rest_(walks) {}
+
+    bool next(Entry& entry) override {
+        entry = {{0, 0, 0}, {0, 0, 1}, 1, 0};
+        return rest_-- > 0;
+    }
+    void leave(std::uint32_t, float, Vec3 direction, const Crossing& crossing, std::vector<CellExit>&) override {
+        const double outwards = dot(direction, crossing.normal);
+        along += crossing.normal.z, cosine += outwards, square += outwards * outwards, forward += direction.z;
+    }
+
+    double along = 0, cosine = 0, square = 0, forward = 0;
+
+private:
+    int rest_;
+};
+
+TEST(LargeSteps, LeaveABallFromItsMiddleAsWalksDo) {
+    constexpr int chunks = 64, walks = 2048;
+    constexpr const char* names[]{"left", "along", "cosine", "square of the cosine", "forward", "collisions"};
+    Judge judge;
+    SplitMix64 seeds(1);
+    const Ball ball(1, 0.5);
+    // The largest step is a little shorter than the radius: what leaves is what the step left.
+    for (const auto& [g, sigma_t] : {std::pair{0.0, 11.5}, {0.8, 37.0}}) {
+        Estimate means[2][6];
+        for (const bool steps : {false, true}) {
+            double sum[6] = {}, squares[6] = {};
+            for (int chunk = 0; chunk < chunks; ++chunk) {
+                FromTheMiddle source(walks);
+                const BodyMedium medium{sigma_t, 0.004, g, 1, steps ? 1024 : 0};
+                const BodyChunk done = walkBodyChunk(ball, medium, source, SplitMix64(seeds.next()));
+                const double values[]{done.left,     source.along,   source.cosine,
+                                      source.square, source.forward, static_cast<double>(done.collisions)};
+                for (int i = 0; i < 6; ++i) sum[i] += values[i] / walks, squares[i] += std::pow(values[i] / walks, 2);
+            }
+            for (int i = 0; i < 6; ++i) {
+                const double mean = sum[i] / chunks;
+                means[steps][i] = {mean, std::sqrt((squares[i] / chunks - mean * mean) / (chunks - 1)), chunks};
+            }
+        }
+        for (int i = 0; i < 6; ++i) compare(judge, fmt::format("g {}, {}", g, names[i]), means[0][i], means[1][i]);
+    }
+    judge.expectAgreement();
 }
 
 // An oblique beam, so that places and directions count, and absorption, so that numbers of collisions do.

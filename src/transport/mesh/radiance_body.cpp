@@ -65,7 +65,7 @@ BodyRadiance walkAny(const Body& body, const Medium& medium, int channel, const 
     const bool beams_wanted = needsBeams(light, medium.eta);
     if (beams_wanted && std::is_same_v<Body, Ball>)
         throw inputError("light from a single direction or point is not followed through a smooth refractive sphere",
-                         "reference mesh sphere, whose facets it is; or give the sun a disc (--sun-angle 10)");
+                         "a mesh of a sphere, through whose facets it is; or give the sun a disc (--sun-angle 10)");
     if (options.walks_per_pixel == 0) throw inputError("a reference needs at least one walk per pixel");
     if (!medium.scatters(channel)) throw inputError("the medium does not scatter in this channel");
     const double sigma_t = medium.sigmaT()[channel];
