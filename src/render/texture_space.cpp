@@ -92,7 +92,8 @@ public:
             .stage_ms = stage_ms_,
             .interactions = statistics_.interactions + statistics_.expansions,
             .approximates = "the light of the whole surface stands in samples that all receivers share",
-            .device = "cpu"};
+            .device = context_ ? "gl " + context_->info().renderer : "cpu"};
+        if (device_) report.interactions = static_cast<std::uint64_t>(next_) * samples_.points.positions.size();
         if (directional_ && !samples_.dark && !input_.profile) {
             const TechniqueReport sum = directional_->report();
             for (const auto& [name, ms] : sum.stage_ms) report.stage_ms[name] += ms;

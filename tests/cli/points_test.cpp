@@ -62,9 +62,9 @@ TEST_F(Program, RendersInTextureSpaceAndReportsTheAtlas) {
     EXPECT_GT(document.at("charts"), 1);
     EXPECT_GT(document.at("atlas_fill"), 0.3);
     EXPECT_TRUE(document.at("error_bound").is_null());
-    const Output refused = run("render statue --technique texture-space --atlas 16 --uvs own --size 48x32 -o b.exr");
-    EXPECT_NE(refused.exit_code, 0);
-    EXPECT_THAT(refused.err, HasSubstr("no room"));
+    const Output refused = run("render sphere --technique separable --atlas 64 --size 48x32 -o b.exr");
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_THAT(refused.err, HasSubstr("it belongs to --technique texture-space"));
 }
 
 }  // namespace

@@ -302,6 +302,18 @@ TEST(Atlas, LivesWithSliversAndLooseTriangles) {
     EXPECT_TRUE(std::isfinite(atlas.report.stretch.l2));
 }
 
+// Both sides of a sheet, joined along its border: their triangles lie on one another.
+TEST(Atlas, PartsTheSidesOfASheet) {
+    Mesh mesh = square();
+    mesh.uvs.clear();
+    mesh.triangles.insert(mesh.triangles.end(), {{0, 2, 1}, {0, 3, 2}});
+    const Atlas atlas = makeAtlas(mesh, {.resolution = 32}, quiet);
+    EXPECT_EQ(doublyCovered(atlas, 3), 0u);
+    EXPECT_NEAR(atlas.report.stretch.l2, 1, 1e-9);
+    Mesh triangle{.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, .triangles = {{0, 1, 2}, {0, 2, 1}}};
+    EXPECT_EQ(makeAtlas(triangle, {.resolution = 32}, quiet).report.charts, 2u);
+}
+
 TEST(Atlas, SaysThatItHasNoRoom) {
     try {
         makeAtlas(bodyWithHoles(7, 2), {.resolution = 4}, quiet);

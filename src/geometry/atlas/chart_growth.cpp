@@ -59,16 +59,16 @@ private:
         // The first one stands at an end of the surface, not where the file happens to begin.
         spread(distance, faces_.front());
         std::vector<std::uint32_t> seeds;
+        std::vector<std::uint8_t> taken(owner_.size());  // two sides of a sheet are no distance apart
         for (bool first = true; seeds.size() < faces_.size(); first = false) {
-            std::uint32_t farthest = faces_.front();
             const auto reached = [&](std::uint32_t face) {
-                return first && distance[face] == infinity ? -1.0 : distance[face];
+                return taken[face] || (first && distance[face] == infinity) ? -1.0 : distance[face];
             };
-            for (const std::uint32_t face : faces_)
-                if (reached(face) > reached(farthest)) farthest = face;
+            const std::uint32_t farthest = *std::ranges::max_element(faces_, {}, reached);
             if (seeds.size() >= count && distance[farthest] < infinity) break;
             if (first) std::ranges::fill(distance, infinity);
             seeds.push_back(farthest);
+            taken[farthest] = 1;
             spread(distance, farthest);
         }
         return seeds;
