@@ -9,6 +9,7 @@
 
 #include "gui/kernel/kernel_options.h"
 #include "gui/plot/figure_view.h"
+#include "gui/plot/option_bar.h"
 #include "gui/plot/plot_options.h"
 #include "gui/view/object_view.h"
 #include "gui/window/docks.h"
@@ -32,7 +33,11 @@ TEST_F(LayoutTest, NoChosenNameIsCutOff) {
         const auto window = shown({width, 800});
         EXPECT_EQ(window->width(), width) << "the docks leave it that small";
         for (const QComboBox* box : window->findChildren<QComboBox*>()) {
-            if (!box->isVisible() || box->visibleRegion().isEmpty()) continue;
+            if (!box->isVisible() || box->parentWidget()->visibleRegion().isEmpty()) continue;
+            if (qobject_cast<OptionBar*>(box->parentWidget())) {
+                EXPECT_EQ(box->visibleRegion().boundingRect().size(), box->size())
+                    << box->accessibleName().toStdString();
+            }
             const int room = box->width() - 2 * 11 - 22 - (box->itemIcon(box->currentIndex()).isNull() ? 0 : 20);
             EXPECT_GE(room, box->fontMetrics().horizontalAdvance(box->currentText()))
                 << box->currentText().toStdString() << " at " << width;
@@ -84,9 +89,9 @@ TEST_F(LayoutTest, WelcomeStandsBesideTheObjectAndFollowsTheTheme) {
         ASSERT_TRUE(card && card->isVisible());
         const QRect view = window->view().rect(), taken = card->geometry();
         EXPECT_TRUE(view.contains(taken)) << size.width();
-        // The object fills the middle; below it there is room for a strip.
-        const QRect middle(view.center().x() - view.height() / 4, view.height() / 4, view.height() / 2,
-                           view.height() / 3);
+        // What the first start shows.
+        const QRect middle(view.center().x() - view.height() / 5, view.height() / 4, 2 * view.height() / 5,
+                           view.height() / 2);
         EXPECT_FALSE(middle.intersects(taken)) << size.width();
         const auto icon = [&] { return card->findChildren<QToolButton*>().back()->icon().pixmap(20, 20).toImage(); };
         const QImage dark = icon();

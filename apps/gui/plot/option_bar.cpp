@@ -15,9 +15,6 @@ OptionBar::OptionBar(Desk& desk, std::string section, QWidget* parent)
     : QWidget(parent), desk_(desk), section_(std::move(section)) {
     row_ = new FlowRow(this);
     row_->setContentsMargins(Space::s, Space::xs, Space::s, Space::xs);
-    QSizePolicy policy(QSizePolicy::Preferred, QSizePolicy::Fixed);
-    policy.setHeightForWidth(true);
-    setSizePolicy(policy);
 }
 
 const Param& OptionBar::param(const std::string& option) const {

@@ -67,12 +67,12 @@ Welcome::Welcome(Desk& desk, QWidget* host) : QFrame(host), host_(host) {
 }
 
 void Welcome::place() {
-    // Beside the object, which fills some two thirds of the height in the middle; where there is no room, below it, if
-    // there is room for three buttons in a row.
+    // Beside the statue, which is two fifths as wide as the view is high; where there is no room, below it, if there is
+    // room for three buttons in a row.
     constexpr int beside_width = 256;
     constexpr int strip_width = 600;
     const bool beside =
-        host_->width() / 2 - host_->height() / 3 >= beside_width + Space::l || host_->width() < strip_width;
+        host_->width() / 2 - host_->height() / 5 >= beside_width + Space::l || host_->width() < strip_width;
     ways_->setDirection(beside ? QBoxLayout::TopToBottom : QBoxLayout::LeftToRight);
     const int widest = beside ? beside_width : strip_width + 40;
     resize(std::min(widest, std::max(host_->width() - 2 * Space::l, 160)), 10);
