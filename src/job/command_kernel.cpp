@@ -29,8 +29,8 @@ MethodOptions methodOf(const Options& options) {
                          .count = static_cast<int>(options.number("count")),
                          .preset = options.text("preset")};
     if (options.toggle("thesis")) method.guided.soft = kThesisSoftness;
-    if (options.text("fit") == "kernel_space" || options.toggle("thesis"))
-        method.measure = GaussianMeasure::kernel_space;
+    if (options.text("fit") == "kernel_space") method.measure = GaussianMeasure::kernel_space;
+    if (options.toggle("thesis")) method.measure = GaussianMeasure::kernel_space_any_mass;
     return method;
 }
 
@@ -224,7 +224,7 @@ Command kernelCommand() {
                         {.name = "check",
                          .type = ParamType::path,
                          .value = std::string(),
-                         .doc = "judge the tables of this file (HLSL, GLSL, C) instead"},
+                         .doc = "judge the tables of this file (HLSL, GLSL, C, Godot, JSON, lines of numbers) instead"},
                         {.name = "export",
                          .type = ParamType::text,
                          .value = std::string(),

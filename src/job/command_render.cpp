@@ -47,7 +47,9 @@ std::optional<CacheFolder> pointCache(const Options& options) {
 // So that a slip of the pen in --size is an error and not the end of the machine.
 void checkMemory(const RenderSettings& settings, double max_gib) {
     // Samples, their exitance and radiance, three pictures; a point with its irradiance in a tree.
-    constexpr double bytes_per_pixel = 240, bytes_per_point = 160;
+    constexpr double bytes_per_point = 160;
+    // The filter's planes: positions, normals, grids and three lists of light.
+    const double bytes_per_pixel = settings.technique == "separable" ? 370 : 240;
     const double points = settings.points > 0 ? static_cast<double>(settings.points) : 800'000;
     const double gib =
         (bytes_per_pixel * settings.width * settings.height + bytes_per_point * points) / (1024. * 1024 * 1024);

@@ -19,7 +19,7 @@ JudgedKernel judgeKernel(MadeKernel made, const Judge& judge, bool perceptual, i
     if (!perceptual) return judged;
     judged.ssim = 0;
     for (std::size_t i = 0; i < judge.inputs().size(); ++i) {
-        const Image image = tapsFilter(judge.inputs()[i], judged.made.taps, {.pixel_mm = judge.pixel()});
+        const Image image = judge.filter(judge.inputs()[i], judged.made.taps);
         const ImageError error = compareImages(image, judge.exact()[i], {.threads = threads});
         judged.flip += error.flip / static_cast<double>(judge.inputs().size());
         judged.ssim += error.ssim / static_cast<double>(judge.inputs().size());
@@ -50,6 +50,7 @@ std::vector<MethodOptions> allMethods(int taps) {
     add({.method = "manual"});
     add({.method = "skin"});
     for (const int rank : {1, 2}) add({.method = "optimised", .rank = rank});
+    add({.method = "turned"});
     return all;
 }
 
@@ -76,12 +77,15 @@ Json judgedJson(const JudgedKernel& judged) {
                          {"weights", weights}});
     }
     Json json{{"name", made.name},
+              {"turned", made.taps.turned},
               {"rank", made.rank()},
               {"seconds", judged.seconds},
               {"error",
                {{"kernel_rms", triple(judged.kernel_rms)},
                 {"kernel_rms_raw", triple(judged.kernel_rms_raw)},
-                {"kernel_rms_of", judged.has_lines ? "lines" : "taps"},
+                {"kernel_rms_of", judged.has_lines          ? "lines"
+                                  : judged.made.taps.turned ? "taps, axes at rest"
+                                                            : "taps"},
                 {"image_rms", images},
                 {"flip", judged.flip},
                 {"ssim", judged.ssim}}},
@@ -119,6 +123,11 @@ std::vector<std::string> errorLines(const JudgedKernel& judged) {
     for (std::size_t i = 0; i < judged.image_rms.size(); ++i)
         pictures += fmt::format(", {} {:.3g}", signals()[i].name, Judge::overall({judged.image_rms[i]}));
     lines.push_back(pictures);
+    if (judged.made.taps.turned)
+        lines.push_back(
+            fmt::format("Turn the axes by a random angle of [0, 180) degrees in every pixel of both passes: {} frames "
+                        "were averaged",
+                        Judge::turned_frames));
     return lines;
 }
 

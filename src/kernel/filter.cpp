@@ -81,24 +81,24 @@ int wrapped(int at, int n) {
     return rest < 0 ? rest + n : rest;
 }
 
-// Angles of a 4 x 4 tile, in quarters of pi / 2 / 4: neighbours differ much, rows and columns have all of them.
-constexpr int turns = 16;
-constexpr std::array<int, turns> tile{0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5};
+// Angles that are told apart: at an offset of 30 pixels neighbours are half a pixel from each other.
+constexpr int turns = 96;
 
-Image pass(const Image& image, const TapTerm& term, bool second, const FilterOptions& options) {
+Image pass(const Image& image, const TapTerm& term, bool second, const FilterOptions& options, int frame) {
     const int n = image.width, patterns = options.turned ? turns : 1;
     Image result(n, image.height, {0, 0, 0, 1});
     std::vector<std::vector<Sample>> samples;
     for (int k = 0; k < patterns; ++k) {
         const double angle =
-            (term.angle_deg / 180 + (second ? 0.5 : 0) + 0.5 * static_cast<double>(k) / patterns) * std::numbers::pi;
+            (term.angle_deg / 180 + (second ? 0.5 : 0) + static_cast<double>(k) / patterns) * std::numbers::pi;
         const double x = std::abs(std::cos(angle)) < 1e-12 ? 0 : std::cos(angle);
         const double y = std::abs(std::sin(angle)) < 1e-12 ? 0 : std::sin(angle);
         samples.push_back(samplesAlong(term, x, y, options.width / options.pixel_mm));
     }
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < n; ++x) {
-            const int turn = options.turned ? tile[static_cast<std::size_t>((y % 4) * 4 + x % 4)] : 0;
+            const int turn =
+                options.turned ? static_cast<int>(turns / std::numbers::pi * turnOfPixel(x, y, frame, second)) : 0;
             Rgbf sum;
             for (const Sample& sample : samples[static_cast<std::size_t>(turn)]) {
                 const Rgba& pixel = image.pixels[static_cast<std::size_t>(wrapped(y + sample.dy, image.height) * n +
@@ -114,14 +114,26 @@ Image pass(const Image& image, const TapTerm& term, bool second, const FilterOpt
 
 }  // namespace
 
+double turnOfPixel(double x, double y, int frame, bool second) {
+    // Frames shift the pattern along a line that comes back to no place soon; second passes take other steps, so that
+    // over the frames every pair of angles is met.
+    const double shift = 5.588238 * (second ? 17 * frame + 11 : frame);
+    const double inner = 0.06711056 * (x + shift) + 0.00583715 * (y + shift);
+    const double outer = 52.9829189 * (inner - std::floor(inner));
+    return std::numbers::pi * (outer - std::floor(outer));
+}
+
 Image tapsFilter(const Image& image, const Taps& taps, const FilterOptions& options) {
     Image sum(image.width, image.height, {0, 0, 0, 1});
-    for (const TapTerm& term : taps.terms) {
-        const Image blurred = pass(pass(image, term, false, options), term, true, options);
-        for (std::size_t i = 0; i < sum.pixels.size(); ++i)
-            for (int c = 0; c < Rgb::channels; ++c)
-                channelOf(sum.pixels[i], c) += static_cast<float>(term.scale[c]) * channelOf(blurred.pixels[i], c);
-    }
+    const int frames = options.turned ? options.frames : 1;
+    for (const TapTerm& term : taps.terms)
+        for (int frame = 0; frame < frames; ++frame) {
+            const Image blurred = pass(pass(image, term, false, options, frame), term, true, options, frame);
+            for (std::size_t i = 0; i < sum.pixels.size(); ++i)
+                for (int c = 0; c < Rgb::channels; ++c)
+                    channelOf(sum.pixels[i], c) +=
+                        static_cast<float>(term.scale[c] / frames) * channelOf(blurred.pixels[i], c);
+        }
     return sum;
 }
 

@@ -10,10 +10,16 @@ namespace searchlight {
 struct FilterOptions {
     double pixel_mm = 1;  ///< side of a pixel on the surface
     double width = 1;     ///< scales the offsets
-    /// The axes of all terms are turned from pixel to pixel, by a pattern that repeats after 4 x 4 of them: crosses
-    /// become grain.
+    /// The axes of all terms turn from pixel to pixel, turnOfPixel(): crosses become grain.
     bool turned = false;
+    int frames = 1;  ///< of axes that turn: pictures with patterns of their own, averaged as engines do over time
 };
+
+/// By what the axes of a kernel turn at column x and row y, in [0, pi), so that each pass alone has
+/// all directions: interleaved gradient noise [Jimenez2014], in
+/// which neighbours differ much and every 3 x 3 pixels have about all angles. Another pattern for each frame, and for
+/// the second pass: what a pixel's neighbours did in the first one says nothing about it.
+double turnOfPixel(double x, double y, int frame, bool second);
 
 /// The picture, which repeats beyond its sides, convolved with the ground truth through Fourier transforms. Square, its
 /// side even.

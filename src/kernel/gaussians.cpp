@@ -89,7 +89,8 @@ public:
 private:
     double objective(const VectorXd& x, VectorXd* gradient, MatrixXd* normal) const {
         const Index n = x.size() / 2;
-        const double sum = x.tail(n).squaredNorm();
+        const bool any_mass = measure_ == GaussianMeasure::kernel_space_any_mass;
+        const double sum = any_mass ? 1 : x.tail(n).squaredNorm();
         if (gradient) {
             *gradient = VectorXd::Zero(2 * n);
             *normal = MatrixXd::Zero(2 * n, 2 * n);
@@ -116,7 +117,7 @@ private:
             if (!gradient) continue;
             for (Index k = 0; k < n; ++k) {
                 row(k) = place.root * x(n + k) * x(n + k) / sum * slope(k);
-                row(n + k) = place.root * 2 * x(n + k) / sum * (value(k) - here);
+                row(n + k) = place.root * 2 * x(n + k) / sum * (value(k) - (any_mass ? 0 : here));
             }
             *gradient += residual * row;
             normal->selfadjointView<Eigen::Lower>().rankUpdate(row);

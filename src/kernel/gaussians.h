@@ -12,8 +12,8 @@ namespace searchlight {
 inline constexpr int most_gaussian_terms = 6;
 
 /// Where a fit is near: in pictures, the power of whose edges falls as the third power of the frequency, or in kernel
-/// space, as the papers have it.
-enum class GaussianMeasure { pictures, kernel_space };
+/// space, as the papers have it: with a mass of 1, or with any and divided by it afterwards.
+enum class GaussianMeasure { pictures, kernel_space, kernel_space_any_mass };
 
 /// Sum over `weights` of 1-D Gaussians, normalised to the weights; a variance of 0 is the delta. Ends at 6 sigma of the
 /// widest. As many of both, variances in mm^2.

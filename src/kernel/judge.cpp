@@ -31,10 +31,14 @@ Judge::Judge(const GroundTruth& truth, const JudgeOptions& options)
     }
 }
 
-std::vector<Rgb> Judge::imageRms(const Taps& taps, bool turned) const {
+Image Judge::filter(const Image& input, const Taps& taps, int frames) const {
+    return tapsFilter(input, taps, {.pixel_mm = pixel_mm_, .turned = taps.turned, .frames = frames});
+}
+
+std::vector<Rgb> Judge::imageRms(const Taps& taps, int frames) const {
     std::vector<Rgb> errors;
     for (std::size_t i = 0; i < inputs_.size(); ++i) {
-        const Image image = tapsFilter(inputs_[i], taps, {.pixel_mm = pixel_mm_, .turned = turned});
+        const Image image = filter(inputs_[i], taps, frames);
         Rgb sum;
         for (std::size_t k = 0; k < image.pixels.size(); ++k) {
             const Rgba &a = image.pixels[k], &b = exact_[i].pixels[k];

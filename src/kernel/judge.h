@@ -21,8 +21,14 @@ public:
     explicit Judge(const GroundTruth& truth, const JudgeOptions& options = {});
 
     /// Root mean square difference of each signal's picture, per channel, in the order of signals(); pictures lie
-    /// within [0, 1].
-    std::vector<Rgb> imageRms(const Taps& taps, bool turned = false) const;
+    /// within [0, 1]. Axes turn where the taps were made for it: filter().
+    std::vector<Rgb> imageRms(const Taps& taps, int frames = turned_frames) const;
+
+    /// A signal's picture through the taps; `frames` of them averaged where axes turn.
+    Image filter(const Image& input, const Taps& taps, int frames = turned_frames) const;
+
+    /// What engines average over time: 8 pictures.
+    static constexpr int turned_frames = 8;
 
     /// The width at which the taps err least in pictures of edges, between 1/1000 and 1000: what a kernel in other
     /// units, or for another size, would have to be scaled by.

@@ -54,6 +54,7 @@ struct TapTerm {
 struct Taps {
     std::vector<TapTerm> terms;
     double extent_mm = 0;  ///< largest offset
+    bool turned = false;   ///< made for axes that turn from pixel to pixel
 
     std::size_t rank() const { return terms.size(); }
     Rgb mass() const;

@@ -14,14 +14,15 @@
 namespace searchlight {
 
 std::span<const Method> methods() {
-    static constexpr std::array<Method, 7> list{
+    static constexpr std::array<Method, 8> list{
         {{"preintegrated", "R_d integrated along one axis: exact for edges along the axes"},
          {"svd", "singular vectors: nearest of its rank in kernel space"},
          {"guided", "one line, nearest in kernel space under a guide function, with mass 1"},
          {"gaussians", "a sum of Gaussians, fitted or published"},
          {"manual", "two Gaussians on one line, near and far"},
          {"skin", "the first separable kernel, made for skin, bent by t and f"},
-         {"optimised", "taps, offsets and weights together, for the least error of pictures"}}};
+         {"optimised", "taps, offsets and weights together, for the least error of pictures"},
+         {"turned", "the same for axes that turn from pixel to pixel: no cross, grain instead"}}};
     return list;
 }
 
@@ -96,6 +97,10 @@ MadeKernel makeKernel(const GroundTruth& truth, const CellKernel& cells, const M
         requireRank(options.rank, 2);
         made.name = fmt::format("optimised {}", options.rank);
         made.taps = optimisedTaps(truth, {.taps = options.taps, .rank = options.rank}).taps;
+        return made;
+    } else if (method == "turned") {
+        requireRank(options.rank, 1);
+        made.taps = optimisedTaps(truth, {.taps = options.taps, .turned = true}).taps;
         return made;
     } else {
         std::vector<std::string> names;

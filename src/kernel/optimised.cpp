@@ -28,7 +28,8 @@ struct Probe {
 struct Layout {
     std::size_t terms = 1, side = 8;
     bool positive = true;
-    bool line = false;  // probes are frequencies of the line alone
+    bool line = false;    // probes are frequencies of the line alone
+    bool turned = false;  // lines stand for their mean over all angles: waves become Bessel functions
     std::vector<double> angle_deg;
     std::vector<Rgb> sum;  // of each term's weights, delta included; where weights are themselves
     std::vector<Rgb> delta;
@@ -66,12 +67,12 @@ public:
                 const double ay = axis == 0 ? std::sin(angle) : std::cos(angle);
                 for (Index f = 0; f < F; ++f) {
                     const Probe& probe = probes_[static_cast<std::size_t>(f)];
-                    const double omega = ax * probe.x + ay * probe.y;
+                    const double omega = layout_.turned ? probe.x : ax * probe.x + ay * probe.y;
                     along(f, static_cast<Index>(2 * t + axis)) = omega;
                     for (std::size_t k = 1; k <= n; ++k) {
                         const double phase = omega * std::exp(x(static_cast<Index>(layout_.offset(t, k - 1))));
-                        cos(f, static_cast<Index>(k)) = std::cos(phase);
-                        sin(f, static_cast<Index>(k)) = phase * std::sin(phase);
+                        cos(f, static_cast<Index>(k)) = layout_.turned ? ::j0(phase) : std::cos(phase);
+                        sin(f, static_cast<Index>(k)) = phase * (layout_.turned ? ::j1(phase) : std::sin(phase));
                     }
                 }
             }
@@ -255,15 +256,15 @@ double powerOf(double omega, double feature) {
 }
 
 std::vector<Probe> planeProbes(const GroundTruth& truth, const std::array<LineKernel, Rgb::channels>& lines,
-                               const Span& span, double feature) {
+                               const Span& span, double feature, bool turned) {
     std::vector<Probe> probes;
-    constexpr int directions = 6;  // of an octant: 0 to 45 degrees, in the middle of equal parts
+    const int directions = turned ? 1 : 6;  // of an octant: 0 to 45 degrees, in the middle of equal parts
     for (double omega = lowest / span.wide; omega < highest / span.narrow; omega *= std::exp2(1.0 / per_octave)) {
         Rgb target;
         for (int c = 0; c < Rgb::channels; ++c)
             target[c] = truth.scatters(c) ? lines[static_cast<std::size_t>(c)].transform(omega) : 1;
         for (int i = 0; i < directions; ++i) {
-            const double angle = (i + 0.5) / directions * std::numbers::pi / 4;
+            const double angle = turned ? 0 : (i + 0.5) / directions * std::numbers::pi / 4;
             probes.push_back({omega * std::cos(angle), omega * std::sin(angle),
                               std::sqrt(powerOf(omega, feature) / directions), target});
         }
@@ -304,8 +305,9 @@ OptimisedTaps optimisedTaps(const GroundTruth& truth, const OptimisedOptions& op
     }
     Layout layout{.terms = static_cast<std::size_t>(options.rank), .side = static_cast<std::size_t>(options.taps / 2)};
     layout.angle_deg = {0, 45};
+    layout.turned = options.turned;
     const double feature = options.feature_mm > 0 ? options.feature_mm : 16 * span.middle;
-    const Search search(layout, planeProbes(truth, line.terms[0].lines, span, feature));
+    const Search search(layout, planeProbes(truth, line.terms[0].lines, span, feature, options.turned));
     VectorXd numbers;
     std::vector<Taps> starts{placedTaps(line, options.taps)};
     for (const double rest : {0.1, 0.03, 0.01}) starts.push_back(quadraticTaps(line, options.taps, rest));
@@ -323,6 +325,7 @@ OptimisedTaps optimisedTaps(const GroundTruth& truth, const OptimisedOptions& op
     }
     best.steps += search.run(numbers, best.error, options.max_steps);
     best.taps = search.taps(numbers);
+    best.taps.turned = options.turned;
     return best;
 }
 

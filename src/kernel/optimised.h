@@ -10,6 +10,10 @@ struct OptimisedOptions {
     int taps = 17;          ///< per pass: odd, at least 3
     int rank = 1;           ///< 1, or 2: a second pair of passes, along the diagonals
     double feature_mm = 0;  ///< edges are about this far apart; 0: 16 half-energy radii of the middle channel
+    /// For axes that turn from pixel to pixel (rank 1): light takes its two steps at angles that are as good as
+    /// independent, so that on average the kernel is the line's mean over all angles, twice. Its transform is
+    /// (sum of w J0(omega x))^2, which can be that of any radial kernel: no cross is left, only grain.
+    bool turned = false;
     int max_steps = 40;
 };
 

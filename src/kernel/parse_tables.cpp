@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "kernel/kernel_rows.h"
 #include "kernel/kernel_text.h"
 
 namespace searchlight {
@@ -106,11 +107,6 @@ private:
     int line_ = 1;
 };
 
-struct Row {
-    std::array<double, 4> value{};
-    int line = 1;
-};
-
 class TableParser {
 public:
     TableParser(std::string_view text, std::string_view path) : path_(path), tokens_(Scanner(text).all()) {}
@@ -129,8 +125,10 @@ public:
                 ++at_;
             }
         }
+        if (tables_.empty()) readLines();
         if (tables_.empty())
-            throw inputError("there is no kernel in it", "expected an array of float4, vec4 or { r, g, b, offset }")
+            throw inputError("there is no kernel in it",
+                             "expected an array of float4, vec4 or { r, g, b, offset }, lines of such numbers, or JSON")
                 .at(path_);
         return std::move(tables_);
     }
@@ -139,65 +137,141 @@ private:
     bool is(std::size_t at, std::string_view text) const { return at < tokens_.size() && tokens_[at].text == text; }
 
     bool isOpening() const {
-        static constexpr std::array<std::string_view, 7> types{"float4",  "vec4",  "half4",  "fixed4",
-                                                               "Vector4", "Color", "double4"};
+        static constexpr std::array<std::string_view, 13> types{"float4", "vec4",    "half4",  "fixed4", "Vector4",
+                                                                "Color",  "double4", "float2", "vec2",   "half2",
+                                                                "fixed2", "Vector2", "double2"};
         if (tokens_[at_].kind == Kind::word)
             return std::ranges::find(types, tokens_[at_].text) != types.end() && is(at_ + 1, "(");
-        return is(at_, "{") && (tokens_[at_ + 1].kind == Kind::number || is(at_ + 1, "-") || is(at_ + 1, "+"));
+        return (is(at_, "{") || is(at_, "[")) &&
+               (tokens_[at_ + 1].kind == Kind::number || is(at_ + 1, "-") || is(at_ + 1, "+"));
     }
 
     Error fault(const Token& token, std::string message, std::string hint = {}) const {
         return inputError(std::move(message), std::move(hint)).at(path_, token.line, token.column);
     }
 
-    // Four numbers in brackets; nothing where it is other code. Leaves at_ behind it, or where it was.
-    std::optional<Row> vector() {
+    // A number with its sign; nothing where it is other code. Leaves at_ behind it, or where it was.
+    std::optional<double> number() {
+        const bool negative = is(at_, "-"), sign = negative || is(at_, "+");
+        const std::size_t at = at_ + (sign ? 1 : 0);
+        if (tokens_[std::min(at, tokens_.size() - 1)].kind != Kind::number) return {};
+        at_ = at + 1;
+        return (negative ? -1 : 1) * tokens_[at].value;
+    }
+
+    // Four numbers in brackets, or two: of all channels, and the offset. Nothing where it is other code. Leaves at_
+    // behind it, or where it was.
+    std::optional<std::vector<double>> vector() {
         const std::size_t start = at_;
-        Row row{.line = tokens_[at_].line};
         at_ += tokens_[at_].kind == Kind::word ? 2 : 1;
-        const std::string_view close = is(at_ - 1, "(") ? ")" : "}";
-        for (std::size_t i = 0; i < 4; ++i) {
-            const bool negative = is(at_, "-");
-            if (negative || is(at_, "+")) ++at_;
-            const bool number = at_ < tokens_.size() && tokens_[at_].kind == Kind::number;
-            if (number) row.value[i] = (negative ? -1 : 1) * tokens_[at_].value;
-            const std::size_t next = at_ + 1;
-            if (!number || !is(next, i < 3 ? "," : close)) {
-                at_ = start;
-                return {};
+        const std::string_view close = is(at_ - 1, "(") ? ")" : is(at_ - 1, "[") ? "]" : "}";
+        std::vector<double> values;
+        while (values.size() < 5) {
+            const std::optional<double> value = number();
+            if (!value) break;
+            values.push_back(*value);
+            if (is(at_, close) && (values.size() == 2 || values.size() == 4)) {
+                ++at_;
+                return values;
             }
-            at_ += 2;
+            if (!is(at_, ",")) break;
+            ++at_;
         }
-        return row;
+        at_ = start;
+        return {};
+    }
+
+    static KernelRow rowOf(const std::vector<double>& values, int line) {
+        if (values.size() == 2) return {{values[0], values[0], values[0], values[1]}, line};
+        return {{values[0], values[1], values[2], values[3]}, line};
     }
 
     void readTable() {
-        std::vector<Row> rows;
+        std::vector<KernelRow> rows;
+        std::size_t width = 0;
         const std::size_t start = at_;
         while (true) {
             while (tokens_[at_].kind == Kind::comment) ++at_;
             if (!isOpening()) break;
             const Token& token = tokens_[at_];
-            const std::optional<Row> row = vector();
-            if (!row) {
-                if (rows.empty()) {
-                    ++at_;
-                    return;
-                }
-                throw fault(token, fmt::format("tap {} of the table is not four numbers", rows.size() + 1),
-                            "expected r, g, b, offset");
+            const std::optional<std::vector<double>> values = vector();
+            if (!values && rows.empty()) {
+                ++at_;
+                return;
             }
-            rows.push_back(*row);
-            if (rows.size() > most_kernel_taps)
-                throw fault(token, fmt::format("a table of more than {} taps", most_kernel_taps));
+            if (rows.empty()) width = values->size();
+            if (!values || values->size() != width)
+                throw fault(
+                    token,
+                    fmt::format("tap {} of the table is not {} numbers", rows.size() + 1, width == 2 ? "two" : "four"),
+                    width == 2 ? "expected the weight and the offset" : "expected r, g, b, offset");
+            add(rows, rowOf(*values, token.line), token);
             while (tokens_[at_].kind == Kind::comment) ++at_;
             if (!is(at_, ",")) break;
             ++at_;
         }
+        finish(rows, tokens_[start]);
+    }
+
+    // Text of numbers alone: a tap on each line, tables apart by other lines.
+    void readLines() {
+        for (const Token& token : tokens_)
+            if (token.kind == Kind::word ||
+                (token.kind == Kind::sign && token.text.find_first_not_of(",;+-") != token.text.npos))
+                return;
+        at_ = 0;
+        std::vector<KernelRow> rows;
+        std::size_t width = 0, start = 0;
+        while (tokens_[at_].kind != Kind::end) {
+            if (tokens_[at_].kind == Kind::comment) {
+                readComment(tokens_[at_++].text);
+                continue;
+            }
+            const std::size_t first = at_;
+            const Token& token = tokens_[first];
+            std::vector<double> values;
+            while (tokens_[at_].kind != Kind::end && tokens_[at_].line == token.line) {
+                if (tokens_[at_].kind == Kind::comment) break;
+                if (is(at_, ",") || is(at_, ";")) {
+                    ++at_;
+                    continue;
+                }
+                const std::optional<double> value = number();
+                if (!value) throw fault(tokens_[at_], "this is no number", "expected r, g, b, offset on a line");
+                values.push_back(*value);
+            }
+            if (values.empty()) continue;
+            if (values.size() != 2 && values.size() != 4)
+                throw fault(token, fmt::format("there are {} numbers on the line", values.size()),
+                            "expected r, g, b, offset, or the weight of all channels and the offset");
+            if (!rows.empty() && (values.size() != width || token.line > rows.back().line + 1)) {
+                finish(rows, tokens_[start]);
+                rows.clear();
+            }
+            if (rows.empty()) start = first;
+            width = values.size();
+            add(rows, rowOf(values, token.line), token);
+        }
+        if (!rows.empty()) finish(rows, tokens_[start]);
+    }
+
+    void add(std::vector<KernelRow>& rows, const KernelRow& row, const Token& token) const {
+        rows.push_back(row);
+        if (rows.size() > most_kernel_taps)
+            throw fault(token, fmt::format("a table of more than {} taps", most_kernel_taps));
+    }
+
+    void finish(const std::vector<KernelRow>& rows, const Token& at) {
         if (rows.size() < 3) return;
         if (tables_.size() == most_kernel_tables)
-            throw fault(tokens_[start], fmt::format("more than {} tables", most_kernel_tables));
-        tables_.push_back(table(rows, tokens_[start]));
+            throw fault(at, fmt::format("more than {} tables", most_kernel_tables));
+        next_.name = name_;
+        next_.line = at.line;
+        try {
+            tables_.push_back(tableOfRows(next_, rows));
+        } catch (Error& error) {
+            throw error.at(path_, at.line, at.column);
+        }
         next_ = KernelTable();
     }
 
@@ -228,90 +302,6 @@ private:
         next_.term.scale = {scale[0], scale[1], scale[2]};
     }
 
-    KernelTable table(const std::vector<Row>& rows, const Token& at) const {
-        KernelTable table = next_;
-        table.name = name_;
-        table.line = at.line;
-        std::vector<Row> sorted = rows;
-        std::ranges::stable_sort(sorted, {}, [](const Row& row) { return row.value[3]; });
-        if (sorted.front().value[3] >= 0 && sorted.back().value[3] > 0) {
-            table.one_sided = true;
-            std::vector<Row> both;
-            for (auto row = sorted.rbegin(); row != sorted.rend(); ++row) {
-                if (row->value[3] == 0) continue;
-                both.push_back(*row);
-                both.back().value[3] = -row->value[3];
-            }
-            both.insert(both.end(), sorted.begin(), sorted.end());
-            sorted = std::move(both);
-        }
-        const auto middle = std::ranges::find(sorted, 0.0, [](const Row& row) { return row.value[3]; });
-        if (middle == sorted.end()) throw fault(at, "the table has no tap in the middle", "expected an offset of 0");
-        const auto before = static_cast<std::size_t>(middle - sorted.begin());
-        if (sorted.size() - before - 1 != before)
-            throw fault(at,
-                        fmt::format("{} taps on one side of the middle and {} on the other", before,
-                                    sorted.size() - before - 1),
-                        "expected as many, or one side alone");
-        for (const Row& row : sorted) {
-            table.term.offsets_mm.push_back(row.value[3]);
-            table.term.weights.push_back({row.value[0], row.value[1], row.value[2]});
-        }
-        findFaults(table, rows);
-        return table;
-    }
-
-    static void findFaults(KernelTable& table, const std::vector<Row>& rows) {
-        const std::vector<double>& offsets = table.term.offsets_mm;
-        const std::vector<Rgb>& weights = table.term.weights;
-        const std::size_t n = offsets.size();
-        static constexpr const char* names[] = {"red", "green", "blue"};
-        // Six digits, as tables are printed, times the number of taps.
-        const double rounding = 1e-6 * static_cast<double>(n);
-        if (table.count == 1)
-            for (int c = 0; c < Rgb::channels; ++c) {
-                double sum = 0;
-                for (const Rgb& weight : weights) sum += weight[c];
-                if (std::abs(sum - 1) > std::max(rounding, 1e-5))
-                    table.faults.push_back(fmt::format("{} adds up to {:.6g}, not to 1", names[c], sum));
-            }
-        for (std::size_t i = 0; i < n / 2; ++i) {
-            const std::size_t j = n - 1 - i;
-            if (std::abs(offsets[i] + offsets[j]) > 1e-5 * std::abs(offsets[j]))
-                table.faults.push_back(fmt::format("offset {:g} has {:g} on the other side", offsets[j], offsets[i]));
-            for (int c = 0; c < Rgb::channels; ++c)
-                if (std::abs(weights[i][c] - weights[j][c]) > 1e-5 * (std::abs(weights[j][c]) + 1e-3))
-                    table.faults.push_back(fmt::format("{} at offset {:g} is {:g}, on the other side {:g}", names[c],
-                                                       offsets[j], weights[j][c], weights[i][c]));
-        }
-        for (std::size_t i = 0; i + 1 < n; ++i)
-            if (offsets[i] == offsets[i + 1])
-                table.faults.push_back(fmt::format("offset {:g} stands twice", offsets[i]));
-        if (table.count == 1)
-            for (std::size_t i = 0; i < n; ++i)
-                for (int c = 0; c < Rgb::channels; ++c)
-                    if (weights[i][c] < 0)
-                        table.faults.push_back(fmt::format("{} at offset {:g} is negative", names[c], offsets[i]));
-        const auto ascends = [](auto first, auto last) {
-            return std::is_sorted(first, last, [](const Row& a, const Row& b) { return a.value[3] < b.value[3]; });
-        };
-        if (rows.front().value[3] != 0 && !ascends(rows.begin(), rows.end()))
-            table.faults.push_back("offsets do not ascend");
-        if (rows.front().value[3] == 0 && !ascends(rows.begin() + 1, rows.end()))
-            table.faults.push_back("offsets after the middle do not ascend");
-        // A density that rises and falls again away from the middle is a slip of digits, where it falls on both sides.
-        for (int c = 0; c < Rgb::channels && table.count == 1; ++c) {
-            std::vector<double> density;
-            for (std::size_t i = n / 2 + 1; i + 1 < n; ++i)
-                density.push_back(weights[i][c] / (0.5 * (offsets[i + 1] - offsets[i - 1])));
-            for (std::size_t i = 1; i + 1 < density.size(); ++i)
-                if (density[i] > 1.02 * density[i - 1] ||
-                    (i + 2 < density.size() && density[i] < density[i + 1] / 1.02))
-                    table.faults.push_back(fmt::format("{} per mm does not fall away from the middle at offset {:g}",
-                                                       names[c], offsets[n / 2 + 1 + i]));
-        }
-    }
-
     std::string path_;
     std::vector<Token> tokens_;
     std::size_t at_ = 0;
@@ -323,6 +313,10 @@ private:
 }  // namespace
 
 std::vector<KernelTable> parseKernelTables(std::string_view text, std::string_view path) {
+    const std::size_t first = text.find_first_not_of(" \t\r\n");
+    // No shader begins with a brace and a quote.
+    const std::size_t second = first == text.npos ? first : text.find_first_not_of(" \t\r\n", first + 1);
+    if (second != text.npos && text[first] == '{' && text[second] == '"') return kernelTablesOfJson(text, path);
     return TableParser(text, path).run();
 }
 

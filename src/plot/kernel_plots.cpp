@@ -91,7 +91,7 @@ Figure kernelEdgeFigure(const Judge& judge, std::span<const KernelCurve> kernels
     for (int i = first; i < last; ++i) x.push_back((i + 0.5 - 0.25 * n) * judge.pixel());
     int color = 0;
     for (const KernelCurve& curve : kernels) {
-        const Image image = tapsFilter(judge.inputs().front(), curve.taps, {.pixel_mm = judge.pixel()});
+        const Image image = judge.filter(judge.inputs().front(), curve.taps);
         Series line{.label = curve.label, .x = x, .color = color++}, off = line;
         for (int i = first; i < last; ++i) {
             line.y.push_back(valueOf(image.at(i, row), channel));
@@ -131,7 +131,7 @@ Figure kernelDifferenceFigure(const Judge& judge, std::span<const KernelCurve> k
     const Image& exact = judge.exact()[signal];
     std::vector<double> largest;
     for (const KernelCurve& curve : kernels) {
-        const Image image = tapsFilter(judge.inputs()[signal], curve.taps, {.pixel_mm = judge.pixel()});
+        const Image image = judge.filter(judge.inputs()[signal], curve.taps);
         Figure panel{.title = curve.label, .x = lengthAxis(), .y = {.label = "y", .unit = "mm"}};
         panel.map = mapOf(judge, [&](std::size_t i) {
             return std::abs(luminanceOf(image.pixels[i]) - luminanceOf(exact.pixels[i]));

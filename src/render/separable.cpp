@@ -33,7 +33,8 @@ double milliseconds(Clock::time_point since) {
 template <class Value, std::size_t size>
 using Words = std::array<std::pair<std::string_view, Value>, size>;
 
-constexpr Words<FilterAxes, 2> axes_words{{{"surface", FilterAxes::surface}, {"screen", FilterAxes::screen}}};
+constexpr Words<FilterAxes, 3> axes_words{
+    {{"surface", FilterAxes::surface}, {"screen", FilterAxes::screen}, {"turned", FilterAxes::turned}}};
 constexpr Words<FilterTrust, 3> trust_words{
     {{"distance", FilterTrust::distance}, {"depth", FilterTrust::depth}, {"all", FilterTrust::all}}};
 
@@ -113,26 +114,37 @@ public:
                    .fallback = number(options, "fallback"),
                    .strength = strength_,
                    .threads = input.threads};
+        frames_ = filter_.axes == FilterAxes::turned ? static_cast<int>(number(options, "frames")) : 1;
+        exitance_.assign(light_.size(), {});
     }
 
     bool step(Observer& observer) override {
         const auto begin = Clock::now();
         filter_.observer = &observer;
         if (device_)
-            exitance_ = device_->filter(light_, *taps_, filter_);
+            frame_ = device_->filter(light_, *taps_, filter_);
         else
-            lanes_.filter(*samples_, light_, *taps_, filter_, exitance_);
+            lanes_.filter(*samples_, light_, *taps_, filter_, frame_);
+        // The mean of the frames so far.
+        const float share = 1 / static_cast<float>(++filter_.frame);
         const Rgbf total = toFloat(total_);
-        for (Rgbf& m : exitance_) m = {total.r * m.r, total.g * m.g, total.b * m.b};
-        stage_ms_["filter"] = milliseconds(begin);
-        return true;
+        exitance_.resize(frame_.size());
+        for (std::size_t i = 0; i < frame_.size(); ++i) {
+            Rgbf& m = exitance_[i];
+            m.r += share * (total.r * frame_[i].r - m.r);
+            m.g += share * (total.g * frame_[i].g - m.g);
+            m.b += share * (total.b * frame_[i].b - m.b);
+        }
+        stage_ms_["filter"] += milliseconds(begin);
+        return filter_.frame == frames_;
     }
 
     std::span<const Rgbf> exitance() const override { return exitance_; }
 
     TechniqueReport report() const override {
         std::uint64_t pairs = 0;
-        for (const TapTerm& term : taps_->terms) pairs += 2 * term.offsets_mm.size() * samples_->count;
+        for (const TapTerm& term : taps_->terms)
+            pairs += 2 * term.offsets_mm.size() * samples_->count * static_cast<std::uint64_t>(filter_.frame);
         return {.stage_ms = stage_ms_,
                 .interactions = pairs,
                 .approximates =
@@ -162,11 +174,12 @@ private:
     std::optional<ScreenSamples> samples_;
     std::optional<Taps> taps_;
     Rgb total_;
-    std::vector<Rgbf> back_, light_, exitance_;
+    std::vector<Rgbf> back_, light_, frame_, exitance_;
     std::vector<float> strength_;
     RenderInput::Versions seen_;
     ParamValues options_;
-    FilterOptions filter_;
+    ScreenFilterOptions filter_;  // its frame: how many were filtered
+    int frames_ = 1;
     std::map<std::string, double> stage_ms_;
 };
 
@@ -179,43 +192,52 @@ std::vector<Param> separableOptions() {
         param.doc = std::move(doc);
         return param;
     };
-    return {choice("kernel", methodNames(), "the separable kernel that stands for R_d"),
-            {.name = "rank",
-             .type = ParamType::integer,
-             .min = 1,
-             .max = 12,
-             .value = 1.0,
-             .doc = "terms of the kernel, two passes each: of svd, gaussians and optimised"},
-            {.name = "taps",
-             .type = ParamType::integer,
-             .min = 3,
-             .max = 101,
-             .value = 17.0,
-             .doc = "samples of the kernel per pass, an odd number"},
-            {.name = "placed",
-             .type = ParamType::toggle,
-             .value = false,
-             .doc = "samples stand where they serve best, instead of quadratically"},
-            {.name = "k",
-             .min = 0,
-             .max = 4,
-             .value = 1.0,
-             .doc = "of guided kernels: 0 favours the middle, 2 the far field"},
-            choice("axes", wordsOf(axes_words), "along what the filter steps: the tangent plane, or the picture"),
-            choice("trust", wordsOf(trust_words),
-                   "what makes a pixel that lies off the kernel's plane count less: its distance or its depth"),
-            {.name = "reach", .min = 0.01, .max = 1000, .value = 6.0, .doc = "of that, in mean offsets of the kernel"},
-            {.name = "fallback",
-             .min = 0,
-             .max = 1,
-             .value = 0.9,
-             .doc = "of the middle's light, what stands for a place that is not seen or not trusted"},
-            {.name = "kernel_width", .min = 0, .max = 100, .value = 1.0, .doc = "times the width of the kernel"},
-            {.name = "strength",
-             .type = ParamType::text,
-             .value = std::string("none"),
-             .doc = "a picture over the texture coordinates: times the width, place by place; or none"},
-            thicknessOption()};
+    return {
+        choice("kernel", methodNames(), "the separable kernel that stands for R_d"),
+        {.name = "rank",
+         .type = ParamType::integer,
+         .min = 1,
+         .max = 12,
+         .value = 1.0,
+         .doc = "terms of the kernel, two passes each: of svd, gaussians and optimised"},
+        {.name = "taps",
+         .type = ParamType::integer,
+         .min = 3,
+         .max = 101,
+         .value = 17.0,
+         .doc = "samples of the kernel per pass, an odd number"},
+        {.name = "placed",
+         .type = ParamType::toggle,
+         .value = false,
+         .doc = "samples stand where they serve best, instead of quadratically"},
+        {.name = "k",
+         .min = 0,
+         .max = 4,
+         .value = 1.0,
+         .doc = "of guided kernels: 0 favours the middle, 2 the far field"},
+        choice("axes", wordsOf(axes_words),
+               "along what the filter steps: the tangent plane, the picture, or the tangent plane by axes that turn "
+               "from pixel to pixel"),
+        choice("trust", wordsOf(trust_words),
+               "what makes a pixel that lies off the kernel's plane count less: its distance or its depth"),
+        {.name = "reach", .min = 0.01, .max = 1000, .value = 6.0, .doc = "of that, in mean offsets of the kernel"},
+        {.name = "fallback",
+         .min = 0,
+         .max = 1,
+         .value = 0.9,
+         .doc = "of the middle's light, what stands for a place that is not seen or not trusted"},
+        {.name = "frames",
+         .type = ParamType::integer,
+         .min = 1,
+         .max = 64,
+         .value = 1.0,
+         .doc = "of axes that turn: pictures with patterns of their own, averaged as engines do over time"},
+        {.name = "kernel_width", .min = 0, .max = 100, .value = 1.0, .doc = "times the width of the kernel"},
+        {.name = "strength",
+         .type = ParamType::text,
+         .value = std::string("none"),
+         .doc = "a picture over the texture coordinates: times the width, place by place; or none"},
+        thicknessOption()};
 }
 
 std::unique_ptr<Technique> makeSeparable(gl::Context* context) { return std::make_unique<Separable>(context); }

@@ -27,9 +27,9 @@ TEST(ScreenFilterGl, AgreesWithTheLanesOfTheCpu) {
         std::vector<float> strength;
         for (std::size_t i = 0; i < light.size(); ++i) strength.push_back(0.25f * static_cast<float>(i % 5));
         device.setSamples(plane.samples);
-        for (const FilterAxes axes : {FilterAxes::surface, FilterAxes::screen})
+        for (const FilterAxes axes : {FilterAxes::surface, FilterAxes::screen, FilterAxes::turned})
             for (const FilterTrust trust : {FilterTrust::all, FilterTrust::depth, FilterTrust::distance}) {
-                const FilterOptions options{.axes = axes, .trust = trust, .fallback = 0.7, .strength = strength};
+                const ScreenFilterOptions options{.axes = axes, .trust = trust, .fallback = 0.7, .strength = strength};
                 const auto expected = filterScreen(plane.samples, light, taps, options);
                 const auto found = device.filter(light, taps, options);
                 for (std::size_t i = 0; i < found.size(); ++i) {

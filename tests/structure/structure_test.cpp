@@ -30,7 +30,7 @@ const std::vector<Folder>& folders() {
         {"model", {"base", "language", "gl", "scene"}},
         {"light", {"base", "gl", "scene", "io", "geometry", "model"}},
         {"transport", {"base", "gl", "scene", "geometry", "model", "light"}},
-        {"kernel", {"base", "model"}},
+        {"kernel", {"base", "scene", "model"}},
         {"render", {"base", "language", "gl", "scene", "io", "geometry", "model", "light", "transport", "kernel"}},
         {"plot", {"base", "scene", "model", "transport", "kernel"}},
         {"validate", {"base", "language", "gl", "scene", "model", "transport", "kernel", "plot"}},

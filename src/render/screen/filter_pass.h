@@ -11,9 +11,10 @@
 
 namespace searchlight {
 
+/// On both sides of the middle: kernels are even.
 struct FilterTap {
-    float offset = 0;  ///< mm, not 0
-    Rgbf weight;
+    float offset = 0;  ///< mm, above 0
+    Rgbf weight;       ///< of each side
 };
 
 /// Along cosine u + sine v, u and v being the axes of FilterAxes, u within the picture's row.
@@ -35,8 +36,11 @@ struct FilterTerm {
 
 std::vector<FilterTerm> filterTerms(const Taps& taps);
 
+/// cos and sin per sample, padded: by what the axes turn in the pixel that it is seen in.
+std::array<std::vector<float>, 2> filterTurns(const ScreenSamples& samples, int frame, bool second);
+
 /// 1 / (reach meanOffset() width), 1/mm, at most 1e12.
-float perReach(const Taps& taps, const FilterOptions& options);
+float perReach(const Taps& taps, const ScreenFilterOptions& options);
 
 struct FilterPass {
     /// Squared sine between the planes of row and surface, below which the surface is seen from its edge.
@@ -50,10 +54,12 @@ struct FilterPass {
     FilterAxes axes = FilterAxes::surface;
     FilterTrust trust = FilterTrust::distance;
     float width = 1, per_reach = 0, fallback = 1;
-    std::span<const float> strength;     ///< padded, or empty
-    std::array<const float*, 3> grid{};  ///< light of who stands for the cell, per channel
+    std::span<const float> strength;      ///< padded, or empty
+    std::array<const float*, 2> turns{};  ///< filterTurns(), or null
+    std::array<const float*, 3> grid{};   ///< light of who stands for the cell, per channel
     std::array<const float*, 3> light{};
-    std::array<float*, 3> result{};  ///< per sample
+    std::array<float*, 3> result{};    ///< per sample
+    std::array<float*, 3> grid_out{};  ///< the same of who stands for the cell; or null
 };
 
 }  // namespace searchlight

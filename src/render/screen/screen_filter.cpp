@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "kernel/filter.h"
 #include "render/screen/filter_pass.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -50,11 +51,24 @@ HWY_INLINE Vectors loaded(const std::array<std::vector<float>, 3>& planes, std::
     return {hn::LoadU(d, &planes[0][i]), hn::LoadU(d, &planes[1][i]), hn::LoadU(d, &planes[2][i])};
 }
 
-// The direction of the pass.
-HWY_INLINE Vectors axisOf(const FilterPass& pass, const Vectors& position, const Vectors& normal) {
+// cos and sin of the angle between the pass and u.
+struct Turn {
+    FloatV cosine, sine;
+};
+
+// The line's own angle, and that of each sample where axes turn.
+HWY_INLINE Turn turnOf(const FilterPass& pass, std::size_t i) {
     const Float d;
     const FloatV cosine = hn::Set(d, pass.line->cosine), sine = hn::Set(d, pass.line->sine);
-    if (pass.axes == FilterAxes::screen) return {cosine, sine, hn::Zero(d)};
+    if (!pass.turns[0]) return {cosine, sine};
+    const FloatV c = hn::LoadU(d, pass.turns[0] + i), s = hn::LoadU(d, pass.turns[1] + i);
+    return {hn::MulSub(cosine, c, hn::Mul(sine, s)), hn::MulAdd(sine, c, hn::Mul(cosine, s))};
+}
+
+// The direction of the pass.
+HWY_INLINE Vectors axisOf(const FilterPass& pass, const Turn& turn, const Vectors& position, const Vectors& normal) {
+    const Float d;
+    if (pass.axes == FilterAxes::screen) return {turn.cosine, turn.sine, hn::Zero(d)};
     // The plane of the picture's row meets the tangent plane in u: a pass along u stays in its row.
     const FloatV row_y = hn::Neg(position.z), row_z = position.y;
     Vectors u = {hn::MulSub(row_y, normal.z, hn::Mul(row_z, normal.y)), hn::Mul(row_z, normal.x),
@@ -64,34 +78,34 @@ HWY_INLINE Vectors axisOf(const FilterPass& pass, const Vectors& position, const
     const FloatV per_length = hn::Div(hn::Set(d, 1.0f), hn::Sqrt(hn::Max(square, limit)));
     u = {hn::IfThenElse(edge_on, hn::Set(d, 1.0f), hn::Mul(per_length, u.x)),
          hn::IfThenZeroElse(edge_on, hn::Mul(per_length, u.y)), hn::IfThenZeroElse(edge_on, hn::Mul(per_length, u.z))};
-    if (pass.line->sine == 0) return u;
+    if (pass.course == FilterLine::Course::row) return u;
     const Vectors v = crossOf(u, normal);
-    return {hn::MulAdd(cosine, u.x, hn::Mul(sine, v.x)), hn::MulAdd(cosine, u.y, hn::Mul(sine, v.y)),
-            hn::MulAdd(cosine, u.z, hn::Mul(sine, v.z))};
+    return {hn::MulAdd(turn.cosine, u.x, hn::Mul(turn.sine, v.x)),
+            hn::MulAdd(turn.cosine, u.y, hn::Mul(turn.sine, v.y)),
+            hn::MulAdd(turn.cosine, u.z, hn::Mul(turn.sine, v.z))};
 }
 
-// Of a tap at `offset` whose pixel shows a point at `height` over the plane of the pass.
-HWY_INLINE FloatV trustOf(const FilterPass& pass, FloatV offset, FloatV height) {
+// Of a tap whose pixel shows a point at `height` over the plane of the pass; `far`: twice its |offset|, or a little.
+template <FilterTrust trust>
+HWY_INLINE FloatV trustOf(FloatV per_reach, FloatV far, FloatV height) {
     const Float d;
-    const FloatV one = hn::Set(d, 1.0f), per_reach = hn::Set(d, pass.per_reach);
-    if (pass.trust == FilterTrust::all) return one;
-    if (pass.trust == FilterTrust::depth) return hn::Max(hn::Zero(d), hn::NegMulAdd(hn::Abs(height), per_reach, one));
+    if constexpr (trust == FilterTrust::depth)
+        return hn::Max(hn::Zero(d), hn::NegMulAdd(hn::Abs(height), per_reach, hn::Set(d, 1.0f)));
     // (1 + y / 4)^-4 stands for e^-y, and h^2 / (|h| + 2 |o|) for the way that it is further, of which it is at least
-    // four fifths: together one reciprocal. 1e-30: at offset and height 0.
-    const FloatV far = hn::MulAdd(hn::Set(d, 2.0f), hn::Abs(offset), hn::Add(hn::Abs(height), hn::Set(d, 1e-30f)));
-    const FloatV root =
-        hn::Mul(far, reciprocal(hn::MulAdd(hn::Mul(height, height), hn::Mul(per_reach, hn::Set(d, 0.25f)), far)));
+    // four fifths: together one reciprocal.
+    const FloatV sum = hn::Add(hn::Abs(height), far);
+    const FloatV root = hn::Mul(sum, reciprocal(hn::MulAdd(hn::Mul(height, height), per_reach, sum)));
     const FloatV root2 = hn::Mul(root, root);
     return hn::Mul(root2, root2);
 }
 
-// What the grid holds in the cells around a place.
+// What the grid holds in the cells around a place; or the light that taps bring, and how much of them is seen.
 struct Texel {
     FloatV r, g, b, z;
 };
 
-// The grid under neighbouring lanes: mostly a few vectors of one or two rows, which permutations bring to their lanes
-// in a fraction of the time of a gather.
+// The grid under neighbouring lanes: mostly as many neighbouring cells, else a few vectors of one or two rows, which
+// permutations bring to their lanes in a fraction of the time of a gather.
 struct Grid {
     std::array<const float*, 4> planes;
     IntV stride;
@@ -101,6 +115,12 @@ struct Grid {
         : planes{pass.grid[0], pass.grid[1], pass.grid[2], pass.samples->depth.data()},
           stride(hn::Set(Int(), pass.samples->stride())),
           row_step(pass.samples->stride()) {}
+
+    HWY_INLINE Texel loaded(std::ptrdiff_t base) const {
+        const Float d;
+        return {hn::LoadU(d, planes[0] + base), hn::LoadU(d, planes[1] + base), hn::LoadU(d, planes[2] + base),
+                hn::LoadU(d, planes[3] + base)};
+    }
 
     HWY_INLINE Texel gathered(IntV at) const {
         const Float d;
@@ -124,24 +144,75 @@ struct Grid {
     }
 };
 
-// Of a row of cells, `columns` (1 or 2) from `left` on in `rows` (1 or 2) from `top` on, as texels[row][column].
+HWY_INLINE Texel blended(hn::Mask<Float> second, const Texel& a, const Texel& b) {
+    return {hn::IfThenElse(second, b.r, a.r), hn::IfThenElse(second, b.g, a.g), hn::IfThenElse(second, b.b, a.b),
+            hn::IfThenElse(second, b.z, a.z)};
+}
+
+// Lanes that all hold one of two successive numbers.
+struct Step {
+    int low = 0;
+    bool even = false, near = false;  // all of them `low`; `low` or one more
+    hn::Mask<Float> up;
+
+    HWY_INLINE explicit Step(IntV numbers) {
+        const Int di;
+        low = hn::GetLane(numbers);
+        even = near = hn::AllTrue(di, hn::Eq(numbers, hn::Set(di, low)));
+        if (!even) {
+            if (!hn::AllTrue(di, hn::Gt(numbers, hn::Set(di, low - 1)))) --low;
+            near =
+                hn::AllTrue(di, hn::And(hn::Gt(numbers, hn::Set(di, low - 1)), hn::Lt(numbers, hn::Set(di, low + 2))));
+        }
+        up = hn::RebindMask(Float(), hn::Gt(numbers, hn::Set(di, low)));
+    }
+};
+
+// The cells under the lanes, `columns` (1 or 2) from `left` on in `rows` (1 or 2) from `top` on, as
+// texels[row][column].
 template <int rows, int columns>
 HWY_INLINE void lookUp(const Grid& grid, IntV left, IntV top, Texel (&texels)[2][2]) {
     const Float d;
     const Int di;
-    const IntV one = hn::Set(di, 1);
     const int lanes = static_cast<int>(hn::Lanes(d));
-    const int first_left = hn::GetLane(left) - lanes / 4, first_top = hn::GetLane(top);
-    const IntV index = hn::Sub(left, hn::Set(di, first_left));
-    const auto in_window = hn::And(hn::Gt(index, hn::Set(di, -1)), hn::Lt(index, hn::Set(di, 2 * lanes - 1)));
-    const auto in_row = hn::Eq(top, hn::Set(di, first_top));
-    const auto base = [&](int row) {
-        return ScreenSamples::margin + static_cast<std::ptrdiff_t>(first_top + row) * grid.row_step + first_left;
+    const Step x(hn::Sub(left, hn::Iota(di, 0))), y(top);
+    const auto base = [&](int row, int column) HWY_ATTR {
+        return ScreenSamples::margin + static_cast<std::ptrdiff_t>(y.low + row) * grid.row_step + x.low + column;
     };
-    if (hn::AllTrue(di, hn::And(in_window, in_row))) {
+    if (x.even && y.even) {
+        for (int row = 0; row < rows; ++row)
+            for (int column = 0; column < columns; ++column) texels[row][column] = grid.loaded(base(row, column));
+        return;
+    }
+    if (x.near && y.near) {
+        const auto rowOf = [&](int row, int column) HWY_ATTR {
+            const Texel here = grid.loaded(base(row, column));
+            return x.even ? here : blended(x.up, here, grid.loaded(base(row, column + 1)));
+        };
+        for (int column = 0; column < columns; ++column) {
+            Texel above = rowOf(0, column);
+            for (int row = 0; row < rows; ++row) {
+                // Where no lane needs it the row below is not read: the grid may end there.
+                if (y.even && row + 1 == rows) {
+                    texels[row][column] = above;
+                    continue;
+                }
+                const Texel below = rowOf(row + 1, column);
+                texels[row][column] = y.even ? above : blended(y.up, above, below);
+                above = below;
+            }
+        }
+        return;
+    }
+    const IntV one = hn::Set(di, 1);
+    const int first = hn::GetLane(left) - lanes / 4;
+    const IntV index = hn::Sub(left, hn::Set(di, first));
+    const auto in_window = hn::And(hn::Gt(index, hn::Set(di, -1)), hn::Lt(index, hn::Set(di, 2 * lanes - 1)));
+    if (y.even && hn::AllTrue(di, in_window)) {
         for (int row = 0; row < rows; ++row)
             for (int column = 0; column < columns; ++column)
-                texels[row][column] = grid.permuted(base(row), column == 0 ? index : hn::Add(index, one));
+                texels[row][column] =
+                    grid.permuted(base(row, first - x.low), column == 0 ? index : hn::Add(index, one));
         return;
     }
     const IntV at = hn::Add(hn::Add(hn::Mul(top, grid.stride), left), hn::Set(di, ScreenSamples::margin));
@@ -153,7 +224,8 @@ HWY_INLINE void lookUp(const Grid& grid, IntV left, IntV top, Texel (&texels)[2]
 }
 
 // Samples [begin, end), whole vectors.
-void filterPart(const FilterPass& pass, std::size_t begin, std::size_t end) {
+template <FilterLine::Course course, FilterTrust trust>
+HWY_INLINE void filterLanes(const FilterPass& pass, std::size_t begin, std::size_t end) {
     const Float d;
     const Int di;
     const ScreenSamples& samples = *pass.samples;
@@ -165,17 +237,21 @@ void filterPart(const FilterPass& pass, std::size_t begin, std::size_t end) {
     const FloatV last_y = hn::Set(d, static_cast<float>(samples.height) + 0.5f);
     const FloatV focal = hn::Set(d, samples.focal), per_focal = hn::Set(d, 1 / samples.focal);
     const FloatV fallback = hn::Set(d, pass.fallback);
+    const FloatV per_reach = hn::Set(d, trust == FilterTrust::depth ? pass.per_reach : 0.25f * pass.per_reach);
+    const bool flat = pass.axes == FilterAxes::screen;
     const Grid grid(pass);
-    const FilterLine::Course course = pass.course;
 
     for (std::size_t i = begin; i < end; i += hn::Lanes(d)) {
         const Vectors position = loaded(samples.position, i);
-        const Vectors normal = pass.axes == FilterAxes::screen ? Vectors{zero, zero, one} : loaded(samples.normal, i);
-        const Vectors axis = axisOf(pass, position, normal);
-        const FloatV plane = dotOf(normal, position);
+        const Vectors normal = flat ? Vectors{zero, zero, one} : loaded(samples.normal, i);
+        const Vectors axis = axisOf(pass, turnOf(pass, i), position, normal);
         const FloatV width = pass.strength.empty() ? hn::Set(d, pass.width)
                                                    : hn::Mul(hn::Set(d, pass.width), hn::LoadU(d, &pass.strength[i]));
         const FloatV nearest = hn::Mul(hn::Set(d, FilterPass::nearest), position.z);
+        // What a grid cell (x, y) shows at depth z is z (slope_x x + slope_y y + slope) - plane over the plane.
+        const FloatV plane = dotOf(normal, position);
+        const FloatV slope_x = hn::Mul(per_focal, normal.x), slope_y = hn::Mul(per_focal, normal.y);
+        const FloatV slope = hn::NegMulAdd(slope_x, middle_x, hn::NegMulAdd(slope_y, middle_y, normal.z));
         // The cell that the sample lies in. Its middle is where taps are counted from, also where the sample lies
         // beside it, at an outline: a tap that does not move is the sample's own pixel.
         const FloatV per_depth = hn::Div(focal, position.z);
@@ -187,71 +263,107 @@ void filterPart(const FilterPass& pass, std::size_t begin, std::size_t end) {
         const FloatV column = cellOf(own_x, last_x), row = cellOf(own_y, last_y);
         const FloatV from_x = hn::Add(middle_x, hn::Sub(column, own_x));
         const FloatV from_y = hn::Add(middle_y, hn::Sub(row, own_y));
+        const IntV own_column = hn::ConvertTo(di, column), own_row = hn::ConvertTo(di, row);
+
+        // The light at an offset, as far as it is trusted, and how far that is.
+        const auto lightAt = [&](FloatV offset, FloatV far) HWY_ATTR __attribute__((always_inline)) {
+            const FloatV per_z =
+                flat ? per_depth : hn::Mul(focal, reciprocal(hn::Max(nearest, hn::MulAdd(offset, axis.z, position.z))));
+            const auto place = [&](FloatV along, FloatV from, FloatV middle_of, FloatV last) HWY_ATTR {
+                return hn::Min(hn::Max(hn::MulAdd(per_z, hn::MulAdd(offset, along, from), middle_of), zero), last);
+            };
+            Texel sum{zero, zero, zero, zero};
+            const auto add_texel = [&](const Texel& texel, FloatV inclined, FloatV share) HWY_ATTR {
+                FloatV weight = share;
+                if constexpr (trust != FilterTrust::all)
+                    weight = hn::Mul(share, trustOf<trust>(per_reach, far, hn::MulSub(texel.z, inclined, plane)));
+                weight = hn::IfThenElseZero(hn::Gt(texel.z, zero), weight);
+                sum.r = hn::MulAdd(weight, texel.r, sum.r);
+                sum.g = hn::MulAdd(weight, texel.g, sum.g);
+                sum.b = hn::MulAdd(weight, texel.b, sum.b);
+                sum.z = hn::Add(sum.z, weight);
+            };
+            Texel texels[2][2];
+            if constexpr (course == FilterLine::Course::row) {
+                const FloatV x = place(axis.x, position.x, from_x, last_x);
+                const FloatV left = hn::Floor(x), fx = hn::Sub(x, left);
+                lookUp<1, 2>(grid, hn::ConvertTo(di, left), own_row, texels);
+                const FloatV inclined = hn::MulAdd(slope_x, left, hn::MulAdd(slope_y, row, slope));
+                add_texel(texels[0][0], inclined, hn::Sub(one, fx));
+                add_texel(texels[0][1], hn::Add(inclined, slope_x), fx);
+            } else if constexpr (course == FilterLine::Course::column) {
+                const FloatV y = place(axis.y, position.y, from_y, last_y);
+                const FloatV top = hn::Floor(y), fy = hn::Sub(y, top);
+                lookUp<2, 1>(grid, own_column, hn::ConvertTo(di, top), texels);
+                const FloatV inclined = hn::MulAdd(slope_y, top, hn::MulAdd(slope_x, column, slope));
+                add_texel(texels[0][0], inclined, hn::Sub(one, fy));
+                add_texel(texels[1][0], hn::Add(inclined, slope_y), fy);
+            } else {
+                const FloatV x = place(axis.x, position.x, from_x, last_x);
+                const FloatV y = place(axis.y, position.y, from_y, last_y);
+                const FloatV left = hn::Floor(x), fx = hn::Sub(x, left);
+                const FloatV top = hn::Floor(y), fy = hn::Sub(y, top);
+                lookUp<2, 2>(grid, hn::ConvertTo(di, left), hn::ConvertTo(di, top), texels);
+                const FloatV upper = hn::MulAdd(slope_x, left, hn::MulAdd(slope_y, top, slope));
+                const FloatV lower = hn::Add(upper, slope_y);
+                const FloatV right_share = hn::Mul(fx, hn::Sub(one, fy)), both = hn::Mul(fx, fy);
+                add_texel(texels[0][0], upper, hn::Sub(hn::Sub(one, fy), right_share));
+                add_texel(texels[0][1], hn::Add(upper, slope_x), right_share);
+                add_texel(texels[1][0], lower, hn::Sub(fy, both));
+                add_texel(texels[1][1], hn::Add(lower, slope_x), both);
+            }
+            return sum;
+        };
+
         // What taps bring, and what is left to the middle.
         FloatV r = zero, g = zero, b = zero;
         const Rgbf middle = pass.line->middle;
         FloatV rest_r = hn::Set(d, middle.r), rest_g = hn::Set(d, middle.g), rest_b = hn::Set(d, middle.b);
         for (const FilterTap& tap : pass.line->taps) {
             const FloatV offset = hn::Mul(width, hn::Set(d, tap.offset));
-            const FloatV per_z = hn::Mul(focal, reciprocal(hn::Max(nearest, hn::MulAdd(offset, axis.z, position.z))));
-            const auto place = [&](FloatV along, FloatV from, FloatV middle_of, FloatV last) HWY_ATTR {
-                return hn::Min(hn::Max(hn::MulAdd(per_z, hn::MulAdd(offset, along, from), middle_of), zero), last);
-            };
-            FloatV sum_r = zero, sum_g = zero, sum_b = zero, sum = zero;
-            const auto add_texel = [&](const Texel& texel, FloatV grid_x, FloatV grid_y, FloatV share) HWY_ATTR {
-                FloatV weight = share;
-                if (pass.trust != FilterTrust::all) {
-                    const FloatV over_z = hn::Mul(texel.z, per_focal);
-                    const Vectors seen = {hn::Mul(over_z, hn::Sub(grid_x, middle_x)),
-                                          hn::Mul(over_z, hn::Sub(grid_y, middle_y)), texel.z};
-                    weight = hn::Mul(share, trustOf(pass, offset, hn::Sub(dotOf(normal, seen), plane)));
-                }
-                weight = hn::IfThenElseZero(hn::Gt(texel.z, zero), weight);
-                sum_r = hn::MulAdd(weight, texel.r, sum_r);
-                sum_g = hn::MulAdd(weight, texel.g, sum_g);
-                sum_b = hn::MulAdd(weight, texel.b, sum_b);
-                sum = hn::Add(sum, weight);
-            };
-            Texel texels[2][2];
-            if (course == FilterLine::Course::row) {
-                const FloatV x = place(axis.x, position.x, from_x, last_x);
-                const FloatV left = hn::Floor(x), fx = hn::Sub(x, left);
-                lookUp<1, 2>(grid, hn::ConvertTo(di, left), hn::ConvertTo(di, row), texels);
-                add_texel(texels[0][0], left, row, hn::Sub(one, fx));
-                add_texel(texels[0][1], hn::Add(left, one), row, fx);
-            } else if (course == FilterLine::Course::column) {
-                const FloatV y = place(axis.y, position.y, from_y, last_y);
-                const FloatV top = hn::Floor(y), fy = hn::Sub(y, top);
-                lookUp<2, 1>(grid, hn::ConvertTo(di, column), hn::ConvertTo(di, top), texels);
-                add_texel(texels[0][0], column, top, hn::Sub(one, fy));
-                add_texel(texels[1][0], column, hn::Add(top, one), fy);
-            } else {
-                const FloatV x = place(axis.x, position.x, from_x, last_x);
-                const FloatV y = place(axis.y, position.y, from_y, last_y);
-                const FloatV left = hn::Floor(x), fx = hn::Sub(x, left), right = hn::Add(left, one);
-                const FloatV top = hn::Floor(y), fy = hn::Sub(y, top), bottom = hn::Add(top, one);
-                lookUp<2, 2>(grid, hn::ConvertTo(di, left), hn::ConvertTo(di, top), texels);
-                add_texel(texels[0][0], left, top, hn::Mul(hn::Sub(one, fx), hn::Sub(one, fy)));
-                add_texel(texels[0][1], right, top, hn::Mul(fx, hn::Sub(one, fy)));
-                add_texel(texels[1][0], left, bottom, hn::Mul(hn::Sub(one, fx), fy));
-                add_texel(texels[1][1], right, bottom, hn::Mul(fx, fy));
-            }
-            const FloatV missing = hn::Mul(fallback, hn::Sub(one, sum));
-            const auto add = [&](float weight, FloatV from, FloatV& to, FloatV& rest) HWY_ATTR {
-                to = hn::MulAdd(hn::Set(d, weight), from, to);
-                rest = hn::MulAdd(hn::Set(d, weight), missing, rest);
-            };
-            add(tap.weight.r, sum_r, r, rest_r);
-            add(tap.weight.g, sum_g, g, rest_g);
-            add(tap.weight.b, sum_b, b, rest_b);
+            // 1e-30: at offset and height 0.
+            const FloatV far = hn::MulAdd(hn::Set(d, 2.0f), hn::Abs(offset), hn::Set(d, 1e-30f));
+            const Texel ahead = lightAt(offset, far), behind = lightAt(hn::Neg(offset), far);
+            const FloatV missing = hn::Mul(fallback, hn::Sub(hn::Set(d, 2.0f), hn::Add(ahead.z, behind.z)));
+            const auto add = [&](float weight, FloatV seen_ahead, FloatV seen_behind, FloatV& to, FloatV& rest)
+                                 HWY_ATTR {
+                                     to = hn::MulAdd(hn::Set(d, weight), hn::Add(seen_ahead, seen_behind), to);
+                                     rest = hn::MulAdd(hn::Set(d, weight), missing, rest);
+                                 };
+            add(tap.weight.r, ahead.r, behind.r, r, rest_r);
+            add(tap.weight.g, ahead.g, behind.g, g, rest_g);
+            add(tap.weight.b, ahead.b, behind.b, b, rest_b);
         }
-        const auto put = [&](std::size_t c, FloatV sum, FloatV rest) HWY_ATTR {
-            hn::StoreU(hn::MulAdd(rest, hn::LoadU(d, pass.light[c] + i), sum), d, pass.result[c] + i);
-        };
-        put(0, r, rest_r);
-        put(1, g, rest_g);
-        put(2, b, rest_b);
+        r = hn::MulAdd(rest_r, hn::LoadU(d, pass.light[0] + i), r);
+        g = hn::MulAdd(rest_g, hn::LoadU(d, pass.light[1] + i), g);
+        b = hn::MulAdd(rest_b, hn::LoadU(d, pass.light[2] + i), b);
+        hn::StoreU(r, d, pass.result[0] + i);
+        hn::StoreU(g, d, pass.result[1] + i);
+        hn::StoreU(b, d, pass.result[2] + i);
+        if (!pass.grid_out[0] || i >= samples.standing) continue;
+        const std::size_t last = i + hn::Lanes(d) - 1, cell = samples.cell[i];
+        if (last < samples.standing && samples.cell[last] == cell + hn::Lanes(d) - 1) {
+            hn::StoreU(r, d, pass.grid_out[0] + cell);
+            hn::StoreU(g, d, pass.grid_out[1] + cell);
+            hn::StoreU(b, d, pass.grid_out[2] + cell);
+        } else
+            for (std::size_t k = i; k <= std::min(last, samples.standing - 1); ++k)
+                for (std::size_t c = 0; c < 3; ++c) pass.grid_out[c][samples.cell[k]] = pass.result[c][k];
     }
+}
+
+template <FilterLine::Course course>
+HWY_INLINE void filterCourse(const FilterPass& pass, std::size_t begin, std::size_t end) {
+    if (pass.trust == FilterTrust::all) return filterLanes<course, FilterTrust::all>(pass, begin, end);
+    if (pass.trust == FilterTrust::depth) return filterLanes<course, FilterTrust::depth>(pass, begin, end);
+    filterLanes<course, FilterTrust::distance>(pass, begin, end);
+}
+
+void filterPart(const FilterPass& pass, std::size_t begin, std::size_t end) {
+    using Course = FilterLine::Course;
+    if (pass.course == Course::row) return filterCourse<Course::row>(pass, begin, end);
+    if (pass.course == Course::column) return filterCourse<Course::column>(pass, begin, end);
+    filterCourse<Course::any>(pass, begin, end);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -278,6 +390,7 @@ std::array<float*, 3> written(Planes& planes) { return {planes[0].data(), planes
 }  // namespace
 
 FilterLine::Course FilterLine::course(FilterAxes axes) const {
+    if (axes == FilterAxes::turned) return Course::any;
     if (sine == 0) return Course::row;
     // Across a row the tangent plane seldom runs along a column.
     return axes == FilterAxes::screen && cosine == 0 ? Course::column : Course::any;
@@ -287,11 +400,10 @@ std::vector<FilterTerm> filterTerms(const Taps& taps) {
     std::vector<FilterTerm> terms;
     for (const TapTerm& from : taps.terms) {
         FilterLine line;
-        for (std::size_t i = 0; i < from.offsets_mm.size(); ++i)
-            if (from.offsets_mm[i] == 0)
-                line.middle = toFloat(from.weight(i));
-            else
-                line.taps.push_back({static_cast<float>(from.offsets_mm[i]), toFloat(from.weight(i))});
+        const std::size_t middle = from.offsets_mm.size() / 2;
+        line.middle = toFloat(from.weight(middle));
+        for (std::size_t i = middle + 1; i < from.offsets_mm.size(); ++i)
+            line.taps.push_back({static_cast<float>(from.offsets_mm[i]), toFloat(from.weight(i))});
         FilterTerm term{{line, line}, toFloat(from.scale)};
         const double angle = from.angle_deg * (std::numbers::pi / 180);
         term.lines[0].cosine = term.lines[1].sine = static_cast<float>(std::cos(angle));
@@ -300,6 +412,22 @@ std::vector<FilterTerm> filterTerms(const Taps& taps) {
         terms.push_back(std::move(term));
     }
     return terms;
+}
+
+std::array<std::vector<float>, 2> filterTurns(const ScreenSamples& samples, int frame, bool second) {
+    std::array<std::vector<float>, 2> turns;
+    for (std::vector<float>& plane : turns) plane.resize(samples.padded());
+    const auto pixelOf = [&](float along, float depth, int size) {
+        return std::floor(static_cast<double>(samples.focal) * along / depth + 0.5 * size);
+    };
+    for (std::size_t i = 0; i < samples.padded(); ++i) {
+        const float z = samples.position[2][i];
+        const double angle = turnOfPixel(pixelOf(samples.position[0][i], z, samples.width),
+                                         pixelOf(samples.position[1][i], z, samples.height), frame, second);
+        turns[0][i] = static_cast<float>(std::cos(angle));
+        turns[1][i] = static_cast<float>(std::sin(angle));
+    }
+    return turns;
 }
 
 double meanOffset(const Taps& taps) {
@@ -315,14 +443,14 @@ double meanOffset(const Taps& taps) {
     return mass > 0 ? sum / mass : 0;
 }
 
-float perReach(const Taps& taps, const FilterOptions& options) {
+float perReach(const Taps& taps, const ScreenFilterOptions& options) {
     const double reach = options.reach * meanOffset(taps) * options.width;
     // 1e12: a kernel without a width trusts nothing beside the plane, and squares of it stay finite.
     return static_cast<float>(1 / std::max(reach, 1e-12));
 }
 
 void ScreenFilter::filter(const ScreenSamples& samples, std::span<const Rgbf> light, const Taps& taps,
-                          const FilterOptions& options, std::vector<Rgbf>& result) {
+                          const ScreenFilterOptions& options, std::vector<Rgbf>& result) {
     assert(light.size() == samples.count && (options.strength.empty() || options.strength.size() == samples.count));
     const std::size_t padded = samples.padded(), parts = (padded + grain - 1) / grain;
     result.resize(samples.count);
@@ -332,15 +460,13 @@ void ScreenFilter::filter(const ScreenSamples& samples, std::span<const Rgbf> li
     for (Planes* planes : {&grid_, &grid_between_})
         for (std::vector<float>& plane : *planes) plane.resize(samples.cells());
     strength_.assign(options.strength.empty() ? 0 : padded, 1.0f);
+    if (options.axes == FilterAxes::turned)
+        for (const std::size_t line : {0u, 1u}) turns_[line] = filterTurns(samples, options.frame, line == 1);
     const auto forParts = [&](const auto& body) {
         parallelFor(parts, options.threads, [&](std::size_t part) {
             if (options.observer && options.observer->cancelled()) throw interruptedError();
             body(part * grain, std::min(padded, (part + 1) * grain));
         });
-    };
-    const auto intoGrid = [&](const Planes& from, Planes& to, std::size_t begin, std::size_t end) {
-        for (std::size_t c = 0; c < 3; ++c)
-            for (std::size_t i = begin; i < std::min(end, samples.standing); ++i) to[c][samples.cell[i]] = from[c][i];
     };
     forParts([&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < std::min(end, samples.count); ++i) {
@@ -349,12 +475,15 @@ void ScreenFilter::filter(const ScreenSamples& samples, std::span<const Rgbf> li
             given_[1][i] = value.g;
             given_[2][i] = value.b;
             if (!strength_.empty()) strength_[i] = options.strength[samples.source[i]];
-            result[samples.source[i]] = {};
         }
-        intoGrid(given_, grid_, begin, end);
+        for (std::size_t c = 0; c < 3; ++c)
+            for (std::size_t i = begin; i < std::min(end, samples.standing); ++i)
+                grid_[c][samples.cell[i]] = given_[c][i];
     });
+    bool empty = true;
     for (const FilterTerm& term : filterTerms(taps)) {
-        const auto pass = [&](std::size_t line, const Planes& from_grid, const Planes& from, Planes& to) {
+        const auto pass = [&](std::size_t line, const Planes& from_grid, const Planes& from, Planes& to,
+                              Planes* to_grid) {
             const FilterLine& along = term.lines[line];
             return FilterPass{.samples = &samples,
                               .line = &along,
@@ -365,29 +494,32 @@ void ScreenFilter::filter(const ScreenSamples& samples, std::span<const Rgbf> li
                               .per_reach = perReach(taps, options),
                               .fallback = static_cast<float>(options.fallback),
                               .strength = strength_,
+                              .turns = options.axes == FilterAxes::turned
+                                           ? std::array<const float*, 2>{turns_[line][0].data(), turns_[line][1].data()}
+                                           : std::array<const float*, 2>{},
                               .grid = read(from_grid),
                               .light = read(from),
-                              .result = written(to)};
+                              .result = written(to),
+                              .grid_out = to_grid ? written(*to_grid) : std::array<float*, 3>{}};
         };
-        const FilterPass first = pass(0, grid_, given_, between_), second = pass(1, grid_between_, between_, filtered_);
-        forParts([&](std::size_t begin, std::size_t end) {
-            HWY_DYNAMIC_DISPATCH(filterPart)(first, begin, end);
-            intoGrid(between_, grid_between_, begin, end);
-        });
+        const FilterPass first = pass(0, grid_, given_, between_, &grid_between_);
+        const FilterPass second = pass(1, grid_between_, between_, filtered_, nullptr);
+        forParts([&](std::size_t begin, std::size_t end) { HWY_DYNAMIC_DISPATCH(filterPart)(first, begin, end); });
         forParts([&](std::size_t begin, std::size_t end) {
             HWY_DYNAMIC_DISPATCH(filterPart)(second, begin, end);
             for (std::size_t i = begin; i < std::min(end, samples.count); ++i) {
                 Rgbf& sum = result[samples.source[i]];
-                sum.r += term.scale.r * filtered_[0][i];
-                sum.g += term.scale.g * filtered_[1][i];
-                sum.b += term.scale.b * filtered_[2][i];
+                const Rgbf more{term.scale.r * filtered_[0][i], term.scale.g * filtered_[1][i],
+                                term.scale.b * filtered_[2][i]};
+                sum = empty ? more : Rgbf{sum.r + more.r, sum.g + more.g, sum.b + more.b};
             }
         });
+        empty = false;
     }
 }
 
 std::vector<Rgbf> filterScreen(const ScreenSamples& samples, std::span<const Rgbf> light, const Taps& taps,
-                               const FilterOptions& options) {
+                               const ScreenFilterOptions& options) {
     std::vector<Rgbf> result;
     ScreenFilter().filter(samples, light, taps, options, result);
     return result;

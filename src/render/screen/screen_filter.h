@@ -18,6 +18,7 @@ enum class FilterAxes : std::uint8_t {
     screen,   ///< the picture's axes, by depth and field of view alone [Freude2014, Eq. 4.11]
     surface,  ///< two directions at right angles in the tangent plane, projected: mm on the surface, however it is
               ///< tilted
+    turned,   ///< those, turned within the plane from pixel to pixel, turnOfPixel(): crosses become grain
 };
 
 /// What is made of a tap whose pixel shows something else than the plane on which the tap lies, by its height h over
@@ -30,7 +31,7 @@ enum class FilterTrust : std::uint8_t {
     distance,
 };
 
-struct FilterOptions {
+struct ScreenFilterOptions {
     FilterAxes axes = FilterAxes::surface;
     FilterTrust trust = FilterTrust::distance;
     double width = 1;  ///< times the offsets of the taps
@@ -38,6 +39,7 @@ struct FilterOptions {
     double reach = 1;
     /// What stands for light that is not trusted, not seen or outside the picture: so much of the middle's.
     double fallback = 1;
+    int frame = 0;                    ///< of axes that turn: another pattern for each
     std::span<const float> strength;  ///< times `width`, per sample; empty: 1 everywhere
     int threads = 0;                  ///< 0: all
     Observer* observer = nullptr;     ///< asked between rows of work whether to stop: interruptedError()
@@ -54,20 +56,21 @@ public:
 
     /// `light` (per sample of the VisibleSurface, any unit) filtered by every term of `taps` in two passes each and
     /// added up: the sum over the taps of weight times the light at the pixel that the tap falls on, bilinear. Samples
-    /// of a pixel that others stand for read the same grid and themselves in the middle. What is not trusted, not seen
-    /// or outside the picture is the middle's light: with a fallback of 1 even light stays as it is. The result does
+    /// of a pixel that others stand for read the same grid and themselves in the middle. With a fallback
+    /// of 1 even light stays as it is. The result does
     /// not depend on `threads`.
     void filter(const ScreenSamples& samples, std::span<const Rgbf> light, const Taps& taps,
-                const FilterOptions& options, std::vector<Rgbf>& result);
+                const ScreenFilterOptions& options, std::vector<Rgbf>& result);
 
 private:
     Planes given_, between_, filtered_;  // per sample
     Planes grid_, grid_between_;
     std::vector<float> strength_;
+    std::array<std::array<std::vector<float>, 2>, 2> turns_;  // of both passes: cos and sin
 };
 
 /// The same once.
 std::vector<Rgbf> filterScreen(const ScreenSamples& samples, std::span<const Rgbf> light, const Taps& taps,
-                               const FilterOptions& options);
+                               const ScreenFilterOptions& options);
 
 }  // namespace searchlight

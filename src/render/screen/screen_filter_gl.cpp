@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 #include "base/embedded.h"
 #include "base/error.h"
@@ -50,16 +51,17 @@ void ScreenFilterGl::setSamples(const ScreenSamples& samples) {
     count_ = samples.count;
     if (count_ == 0) return;
     places_.resize(count_);
-    std::vector<Texel> normals(count_);
+    normals_of_.resize(count_);
     for (std::size_t i = 0; i < count_; ++i) {
         places_[i] = {samples.position[0][i], samples.position[1][i], samples.position[2][i], 1};
-        normals[i] = {samples.normal[0][i], samples.normal[1][i], samples.normal[2][i], 0};
+        normals_of_[i] = {samples.normal[0][i], samples.normal[1][i], samples.normal[2][i], 0};
     }
     source_ = samples.source;
     cell_ = samples.cell;
     texels_.resize(samples.cells());
     for (std::size_t cell = 0; cell < texels_.size(); ++cell) texels_[cell] = {0, 0, 0, samples.depth[cell]};
-    fill(normals_, normals);
+    fill(normals_, normals_of_);
+    samples_ = &samples;
     cells_.reserve(cell_.size() * sizeof(cell_[0]));
     cells_.upload<std::uint32_t>(cell_);
     // Where nothing is seen it stays empty.
@@ -72,7 +74,8 @@ void ScreenFilterGl::setSamples(const ScreenSamples& samples) {
     program_.set("focal", samples.focal);
 }
 
-std::vector<Rgbf> ScreenFilterGl::filter(std::span<const Rgbf> light, const Taps& taps, const FilterOptions& options) {
+std::vector<Rgbf> ScreenFilterGl::filter(std::span<const Rgbf> light, const Taps& taps,
+                                         const ScreenFilterOptions& options) {
     assert(light.size() == count_ && (options.strength.empty() || options.strength.size() == count_));
     std::vector<Rgbf> result(count_);
     if (count_ == 0) return result;
@@ -98,7 +101,8 @@ std::vector<Rgbf> ScreenFilterGl::filter(std::span<const Rgbf> light, const Taps
     else
         taps_.reserve(sizeof(Texel));
 
-    program_.set("surface_axes", options.axes == FilterAxes::surface ? 1 : 0);
+    program_.set("surface_axes", options.axes == FilterAxes::screen ? 0 : 1);
+    program_.set("turned", options.axes == FilterAxes::turned ? 1 : 0);
     program_.set("trust", static_cast<int>(options.trust));
     program_.set("kernel_width", static_cast<float>(options.width));
     program_.set("per_reach", perReach(taps, options));
@@ -113,6 +117,11 @@ std::vector<Rgbf> ScreenFilterGl::filter(std::span<const Rgbf> light, const Taps
         program_.set("scale", toDouble(term.scale));
         for (const bool last : {false, true}) {
             const FilterLine& line = term.lines[last ? 1 : 0];
+            if (options.axes == FilterAxes::turned) {
+                const auto turns = filterTurns(*samples_, options.frame, last);
+                for (std::size_t i = 0; i < count_; ++i) normals_of_[i][3] = std::atan2(turns[1][i], turns[0][i]);
+                fill(normals_, normals_of_);
+            }
             program_.set("course", static_cast<int>(line.course(options.axes)));
             program_.set("cosine", line.cosine);
             program_.set("sine", line.sine);
@@ -131,7 +140,7 @@ std::vector<Rgbf> ScreenFilterGl::filter(std::span<const Rgbf> light, const Taps
     return result;
 }
 
-void ScreenFilterGl::dispatch(const FilterOptions& options, const gl::Buffer& grid, const gl::Buffer& light,
+void ScreenFilterGl::dispatch(const ScreenFilterOptions& options, const gl::Buffer& grid, const gl::Buffer& light,
                               const gl::Buffer& result, const gl::Buffer& grid_out) {
     for (std::size_t first = 0; first < count_; first += slice) {
         if (options.observer && options.observer->cancelled()) throw interruptedError();

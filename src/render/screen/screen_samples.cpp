@@ -41,13 +41,14 @@ ScreenSamples screenSamples(const View& view, const VisibleSurface& visible, int
     }
     samples.source.reserve(count);
     samples.cell.reserve(count - others.size());
-    for (std::size_t pixel = 0; pixel < standing.size(); ++pixel)
-        if (standing[pixel] != nobody) {
-            samples.source.push_back(standing[pixel]);
-            samples.cell.push_back(static_cast<std::uint32_t>(
-                ScreenSamples::margin + (pixel / width + 1) * static_cast<std::size_t>(samples.stride()) +
-                pixel % width + 1));
-        }
+    for (std::size_t first = 0; first < width; first += ScreenSamples::strip)
+        for (std::size_t y = 0; y < height; ++y)
+            for (std::size_t x = first; x < std::min(width, first + ScreenSamples::strip); ++x) {
+                if (standing[y * width + x] == nobody) continue;
+                samples.source.push_back(standing[y * width + x]);
+                samples.cell.push_back(static_cast<std::uint32_t>(
+                    ScreenSamples::margin + (y + 1) * static_cast<std::size_t>(samples.stride()) + x + 1));
+            }
     samples.standing = samples.source.size();
     samples.source.insert(samples.source.end(), others.begin(), others.end());
 
