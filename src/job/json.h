@@ -9,7 +9,7 @@
 #include "base/estimate.h"
 #include "base/param.h"
 #include "job/job.h"
-#include "job/subject.h"
+#include "job/plot/subject.h"
 
 namespace searchlight {
 

@@ -16,7 +16,7 @@
 #include "gui/plot/figure_view.h"
 #include "gui/widgets/number_slider.h"
 #include "job/job.h"
-#include "job/kernel_judged.h"
+#include "job/kernel/kernel_judged.h"
 #include "window_fixture.h"
 
 namespace searchlight::gui {

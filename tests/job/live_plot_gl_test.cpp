@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "base/files.h"
-#include "job/live_plot.h"
+#include "job/live/live_plot.h"
 
 namespace searchlight {
 namespace {

@@ -1,11 +1,11 @@
-#include "job/live_plot.h"
+#include "job/live/live_plot.h"
 
 #include <gmock/gmock.h>
 
 #include <chrono>
 #include <cmath>
 
-#include "job/curves.h"
+#include "job/plot/curves.h"
 
 namespace searchlight {
 namespace {

@@ -1,4 +1,4 @@
-#include "job/live_spheres.h"
+#include "job/live/live_spheres.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "job/paper.h"
+#include "job/paper/paper.h"
 
 #include <gmock/gmock.h>
 

@@ -3,7 +3,7 @@
 #include "base/error.h"
 #include "gl/context.h"
 #include "job/json.h"
-#include "job/kept_renderer.h"
+#include "job/render/kept_renderer.h"
 
 namespace searchlight {
 namespace {

@@ -1,4 +1,4 @@
-#include "job/render_material.h"
+#include "job/render/render_material.h"
 
 #include <gmock/gmock.h>
 

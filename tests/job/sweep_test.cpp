@@ -1,10 +1,10 @@
-#include "job/sweep.h"
+#include "job/sweep/sweep.h"
 
 #include <set>
 
 #include "base/error.h"
 #include "illegal/messages.h"
-#include "job/turntable.h"
+#include "job/render/turntable.h"
 
 namespace searchlight {
 namespace {

@@ -1,4 +1,4 @@
-#include "job/try_model.h"
+#include "job/live/try_model.h"
 
 #include <gmock/gmock.h>
 

@@ -17,7 +17,7 @@
 #include "gui/models/model_status.h"
 #include "gui/models/models_dock.h"
 #include "gui/window/theme.h"
-#include "job/try_model.h"
+#include "job/live/try_model.h"
 
 namespace searchlight::gui {
 

@@ -7,7 +7,7 @@
 
 #include "base/files.h"
 #include "gui/kernel/kernel_options.h"
-#include "job/kernel_export.h"
+#include "job/kernel/kernel_export.h"
 
 namespace searchlight::gui {
 

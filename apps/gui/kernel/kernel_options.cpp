@@ -6,7 +6,7 @@
 
 #include "base/text.h"
 #include "gui/state/command_line.h"
-#include "job/kernel_judged.h"
+#include "job/kernel/kernel_judged.h"
 #include "kernel/signals.h"
 
 namespace searchlight::gui {

@@ -8,8 +8,8 @@
 
 #include "base/figure.h"
 #include "gui/kernel/kernel_options.h"
-#include "job/kernel_judged.h"
-#include "job/kernel_truth.h"
+#include "job/kernel/kernel_judged.h"
+#include "job/kernel/kernel_truth.h"
 
 namespace searchlight::gui {
 

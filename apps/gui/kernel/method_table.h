@@ -4,7 +4,7 @@
 #include <QTableWidget>
 
 #include "gui/kernel/kernel_options.h"
-#include "job/kernel_judged.h"
+#include "job/kernel/kernel_judged.h"
 
 namespace searchlight::gui {
 

@@ -9,7 +9,7 @@
 #include "gui/material/preset_list.h"
 #include "gui/widgets/number_slider.h"
 #include "gui/widgets/segments.h"
-#include "job/subject.h"
+#include "job/plot/subject.h"
 #include "model/inversion.h"
 
 namespace searchlight::gui {

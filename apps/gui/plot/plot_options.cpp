@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "gui/state/command_line.h"
-#include "job/figure_result.h"
+#include "job/plot/figure_result.h"
 
 namespace searchlight::gui {
 

@@ -6,7 +6,7 @@
 
 #include "base/param.h"
 #include "gui/state/state.h"
-#include "job/live_plot.h"
+#include "job/live/live_plot.h"
 
 namespace searchlight::gui {
 

@@ -17,7 +17,7 @@
 #include "gui/window/seen.h"
 #include "gui/window/theme.h"
 #include "io/image_file.h"
-#include "job/live_spheres.h"
+#include "job/live/live_spheres.h"
 #include "validate/image_error.h"
 
 namespace searchlight::gui {

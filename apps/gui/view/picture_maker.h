@@ -10,7 +10,7 @@
 
 #include "base/image.h"
 #include "gui/tasks/tasks.h"
-#include "job/subject.h"
+#include "job/plot/subject.h"
 #include "render/renderer.h"
 
 namespace searchlight::gui {

@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "geometry/object.h"
-#include "job/subject.h"
+#include "job/plot/subject.h"
 #include "light/light_sampler.h"
 #include "render/cell_view.h"
 #include "transport/mesh/cell_picture.h"
