@@ -89,6 +89,8 @@ CLI::App& subcommand(CLI::App& root, const Command& command) {
         CLI::App* next = same.empty() ? nullptr : same.front();
         if (!next) next = app->add_subcommand(word, last ? std::string(command.summary) : "One of");
         next->allow_extras();
+        // A second command is none: `reference mesh sphere` reads an object, not the command beside it.
+        next->require_subcommand(0, 1);
         if (!last)
             next->description(next->get_description() + (next->get_subcommands(nullptr).empty() ? ": " : ", ") +
                               std::string(words[i + 1]));
@@ -253,6 +255,7 @@ Arguments parseArguments(int argc, char** argv) {
     root.set_help_flag("-h,--help", "Say how this is used");
     root.footer("searchlight COMMAND --help says more, with an example.");
     root.allow_extras();
+    root.require_subcommand(0, 1);
 
     Arguments arguments;
     std::vector<Typed> all(commands().size());

@@ -30,6 +30,15 @@ TEST_F(Program, RefusesAPictureFormatThatItCannotWrite) {
     EXPECT_EQ(fileCount(), 0u);
 }
 
+TEST_F(Program, TakesAnObjectThatIsCalledAsACommandForAnObject) {
+    const Output output = run("reference mesh sphere --walks 12345 --print-job");
+    EXPECT_EQ(output.exit_code, 0) << output.err;
+    const json job = json::parse(output.out);
+    EXPECT_EQ(job.at("command"), "reference mesh");
+    EXPECT_EQ(job.at("scene").at("object"), "sphere") << output.out;
+    EXPECT_EQ(job.at("options").at("walks"), 12345) << output.out;
+}
+
 TEST_F(Program, HelpShowsEveryCommandsExampleAndSucceeds) {
     for (const char* command : {"models", "materials", "profile", "invert", "reference halfspace", "plot pencil",
                                 "plot error", "plot albedo", "check", "report", "doctor", "run"}) {
