@@ -1,6 +1,6 @@
 // The low-variance walk through layers against adding-doubling, the half-space and the analogue walk.
 #include <gtest/gtest.h>
-#include <hwy/highway.h>
+#include <hwy/targets.h>
 
 #include <atomic>
 #include <cmath>
@@ -12,6 +12,7 @@
 
 #include "base/csv.h"
 #include "base/files.h"
+#include "instruction_sets.h"
 #include "judge.h"
 #include "transport/half_space/half_space.h"
 #include "transport/slab/slab.h"
@@ -169,7 +170,7 @@ SlabResult onTarget(std::int64_t target, const Case& one, double walks) {
 }
 
 TEST(SlabBest, Avx2AndAvx512AgreeBitForBit) {
-    if ((hwy::SupportedTargets() & HWY_AVX3) == 0) GTEST_SKIP() << "this processor has no AVX-512";
+    if (!hasInstructionSet(HWY_AVX3)) GTEST_SKIP() << "no AVX-512 here";
     for (const Case& one : cases)
         EXPECT_EQ(numbers(onTarget(HWY_AVX3, one, 2e4)), numbers(onTarget(HWY_AVX2, one, 2e4))) << one.name;
 }
@@ -185,7 +186,7 @@ TEST(SlabBest, TargetsWithoutFusedMultiplyAddAgreeStatistically) {
     Judge judge;
     std::uint64_t seed = 4000;
     for (const std::int64_t target : {HWY_SSE4, HWY_EMU128}) {
-        if (target == HWY_SSE4 && (hwy::SupportedTargets() & HWY_SSE4) == 0) continue;
+        if (target == HWY_SSE4 && !hasInstructionSet(HWY_SSE4)) continue;
         for (const Case& one : cases) {
             const SlabResult a = walk(one.problem, 5e4, seed++, SlabEstimator::best, 0, one.width),
                              b = onTarget(target, one, target == HWY_SSE4 ? 5e4 : 3e3);
