@@ -8,6 +8,8 @@
 #include <cmath>
 #include <string_view>
 
+#include "base/png_chunks.h"
+
 namespace searchlight {
 
 namespace {
@@ -19,19 +21,6 @@ constexpr std::array<std::uint32_t, 10> viridis{0x440154, 0x482878, 0x3e4989, 0x
 // in lightness as long as there are few.
 constexpr std::array<std::string_view, series_color_count> series_colors{"#0072B2", "#E69F00", "#009E73",
                                                                          "#D55E00", "#CC79A7", "#56B4E9"};
-
-void appendBigEndian(std::string& bytes, std::uint32_t value) {
-    for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(value >> shift & 0xff);
-}
-
-void appendChunk(std::string& bytes, std::string_view type, std::string_view data) {
-    appendBigEndian(bytes, static_cast<std::uint32_t>(data.size()));
-    const std::size_t begin = bytes.size();
-    bytes += type;
-    bytes += data;
-    const auto* checked = reinterpret_cast<const Bytef*>(bytes.data() + begin);
-    appendBigEndian(bytes, static_cast<std::uint32_t>(crc32_z(0, checked, bytes.size() - begin)));
-}
 
 }  // namespace
 
@@ -75,12 +64,12 @@ std::string palettePng(int width, int height, const std::vector<std::uint8_t>& i
         for (const std::uint8_t c : {color.r, color.g, color.b}) colors += static_cast<char>(c);
         opacities += static_cast<char>(i == transparent_color ? 0 : 255);
     }
-    std::string bytes = "\x89PNG\r\n\x1a\n";
-    appendChunk(bytes, "IHDR", header);
-    appendChunk(bytes, "PLTE", colors);
-    appendChunk(bytes, "tRNS", opacities);
-    appendChunk(bytes, "IDAT", packed);
-    appendChunk(bytes, "IEND", {});
+    std::string bytes(png_signature);
+    appendPngChunk(bytes, "IHDR", header);
+    appendPngChunk(bytes, "PLTE", colors);
+    appendPngChunk(bytes, "tRNS", opacities);
+    appendPngChunk(bytes, "IDAT", packed);
+    appendPngChunk(bytes, "IEND", {});
     return bytes;
 }
 

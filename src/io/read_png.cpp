@@ -13,6 +13,7 @@
 #include <stb/stb_image.h>
 
 #include "base/error.h"
+#include "base/png_chunks.h"
 #include "base/srgb.h"
 #include "io/image_formats.h"
 
@@ -140,7 +141,7 @@ Image decode(std::string_view bytes, Sample* (*load)(stbi_uc const*, int, int*, 
 }  // namespace
 
 ImageFile parsePng(std::string_view bytes) {
-    if (!bytes.starts_with("\x89PNG\r\n\x1a\n"))
+    if (!bytes.starts_with(png_signature))
         throw inputError("is no PNG file", "expected the bytes 89 50 4e 47 0d 0a 1a 0a at its start");
     if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
         throw inputError("the file is larger than 2 GiB");

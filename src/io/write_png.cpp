@@ -9,31 +9,19 @@
 #include <cstdlib>
 
 #include "base/error.h"
+#include "base/png_chunks.h"
 #include "io/image_formats.h"
 
 namespace searchlight {
 
 namespace {
 
-void appendBigEndian(std::string& bytes, std::uint32_t value) {
-    for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(value >> shift & 0xff);
-}
-
-void appendChunk(std::string& bytes, std::string_view type, std::string_view data) {
-    appendBigEndian(bytes, static_cast<std::uint32_t>(data.size()));
-    const std::size_t begin = bytes.size();
-    bytes += type;
-    bytes += data;
-    const auto* checked = reinterpret_cast<const Bytef*>(bytes.data() + begin);
-    appendBigEndian(bytes, static_cast<std::uint32_t>(crc32_z(0, checked, bytes.size() - begin)));
-}
-
 void appendText(std::string& bytes, const std::string& key, const std::string& value) {
     if (key.empty() || key.size() > 79)
         throw usageError(fmt::format("metadata '{}' cannot go into a PNG file", key), "names have 1 to 79 letters");
     const bool ascii = std::ranges::all_of(value, [](char letter) { return static_cast<std::uint8_t>(letter) < 0x80; });
     const std::string_view flags = ascii ? std::string_view("\0", 1) : std::string_view("\0\0\0\0\0", 5);
-    appendChunk(bytes, ascii ? "tEXt" : "iTXt", key + std::string(flags) + value);
+    appendPngChunk(bytes, ascii ? "tEXt" : "iTXt", key + std::string(flags) + value);
 }
 
 // Of the byte to the left, above, and above the left, the one nearest to left + above - above_left.
@@ -101,19 +89,19 @@ std::string pngBytes(const ImageFile& file, const ToneMap& tone_map) {
         std::swap(row, above);
     }
 
-    std::string bytes = "\x89PNG\r\n\x1a\n";
+    std::string bytes(png_signature);
     std::string header;
     appendBigEndian(header, static_cast<std::uint32_t>(image.width));
     appendBigEndian(header, static_cast<std::uint32_t>(image.height));
     header += {8, static_cast<char>(opaque ? 2 : 6), 0, 0, 0};  // bits, RGB or RGBA, and the only methods there are
-    appendChunk(bytes, "IHDR", header);
-    appendChunk(bytes, "sRGB", std::string_view("\1", 1));  // relative colorimetric
+    appendPngChunk(bytes, "IHDR", header);
+    appendPngChunk(bytes, "sRGB", std::string_view("\1", 1));  // relative colorimetric
     for (const auto& [key, value] : file.metadata) appendText(bytes, key, value);
     // A chunk's size has 31 bits.
     const std::string data = compressed(rows);
     for (std::size_t at = 0; at < data.size(); at += std::size_t{1} << 30)
-        appendChunk(bytes, "IDAT", std::string_view(data).substr(at, std::size_t{1} << 30));
-    appendChunk(bytes, "IEND", {});
+        appendPngChunk(bytes, "IDAT", std::string_view(data).substr(at, std::size_t{1} << 30));
+    appendPngChunk(bytes, "IEND", {});
     return bytes;
 }
 
