@@ -37,8 +37,8 @@ std::pair<Vec3, Vec3> across(Vec3 wi) {
 
 }  // namespace
 
-ShadowCasterGl::ShadowCasterGl(gl::Context& context, const Object& object)
-    : program_(context, stage("src/light/shadow_gl.vert.glsl"), stage("src/light/shadow_gl.frag.glsl")),
+ShadowCasterGl::ShadowCasterGl(gl::Context& context, const Object& object, std::string_view fragment)
+    : program_(context, stage("src/light/shadow_gl.vert.glsl"), stage(fragment)),
       corners_(context, sizeof(object.mesh.triangles[0]) * object.mesh.triangles.size()),
       vertices_(context, sizeof(Vec3f) * object.mesh.positions.size()),
       triangles_(static_cast<unsigned>(object.mesh.triangles.size())),
@@ -70,7 +70,8 @@ ShadowCasterGl::Projection ShadowCasterGl::cubeFace(Vec3 place, int face) const 
     return {place, s, t, depth, 1, far / (far - near), -near * far / (far - near), true};
 }
 
-void ShadowCasterGl::draw(gl::Framebuffer& target, const Projection& projection) {
+void ShadowCasterGl::draw(gl::Framebuffer& target, const Projection& projection,
+                          std::initializer_list<gl::TextureBinding> textures) {
     target.clear();
     program_.set("origin", projection.origin);
     program_.set("axis_s", projection.axis_s);
@@ -80,7 +81,7 @@ void ShadowCasterGl::draw(gl::Framebuffer& target, const Projection& projection)
     program_.set("depth_factor", static_cast<float>(projection.depth_factor));
     program_.set("depth_term", static_cast<float>(projection.depth_term));
     program_.set("from_point", projection.from_point ? 1 : 0);
-    program_.draw(target, {.triangles = triangles_}, {{0, corners_}, {1, vertices_}});
+    program_.draw(target, {.triangles = triangles_}, {{0, corners_}, {1, vertices_}}, textures);
 }
 
 }  // namespace searchlight

@@ -1,6 +1,9 @@
 // Shadow maps: a mesh in depth, as a light sees it.
 #pragma once
 
+#include <initializer_list>
+#include <string_view>
+
 #include "base/vec.h"
 #include "geometry/object.h"
 #include "gl/buffer.h"
@@ -11,8 +14,11 @@ namespace searchlight {
 /// A mesh on the device, and the program that draws its depth.
 class ShadowCasterGl {
 public:
-    /// The context outlives it.
-    ShadowCasterGl(gl::Context& context, const Object& object);
+    /// What a fragment leaves: nothing but its depth.
+    static constexpr std::string_view depth_alone = "src/light/shadow_gl.frag.glsl";
+
+    /// `fragment`: the file of another fragment stage. The context outlives it.
+    ShadowCasterGl(gl::Context& context, const Object& object, std::string_view fragment = depth_alone);
 
     /// Radius of the bounding sphere about 0, mm.
     double radius() const { return radius_; }
@@ -35,8 +41,17 @@ public:
     /// Face `face` of a cube around `place`, mm, as GL orients them.
     Projection cubeFace(Vec3 place, int face) const;
 
-    /// Clears the target, which has a depth, and draws what the projection sees.
-    void draw(gl::Framebuffer& target, const Projection& projection);
+    /// Clears the target, which has a depth, and draws what the projection sees. `textures`: what the fragment stage
+    /// reads.
+    void draw(gl::Framebuffer& target, const Projection& projection,
+              std::initializer_list<gl::TextureBinding> textures = {});
+
+    /// For the uniforms of another fragment stage.
+    gl::RasterProgram& program() { return program_; }
+
+    /// Three numbers of vertices a triangle; x, y, z of a vertex, mm.
+    const gl::Buffer& corners() const { return corners_; }
+    const gl::Buffer& vertices() const { return vertices_; }
 
 private:
     gl::RasterProgram program_;

@@ -9,11 +9,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "light/environment.h"
-#include "light/environment_beams.h"
-#include "light/light_filter.h"
-#include "light/single_lights.h"
-#include "light/transmitted_cosine.h"
+#include "render/screen/back_beams.h"
 
 namespace searchlight {
 
@@ -27,57 +23,6 @@ constexpr std::pair<std::string_view, Thickness> words[] = {{"nearest", Thicknes
 
 // A line through more walls than that is followed no further.
 constexpr int most_walls = 64;
-
-struct BackBeam {
-    Vec3 place;  // towards the light, unit; of a point: where it is, mm
-    bool from_point = false;
-    Rgb irradiance;  // on a surface that faces it; of a point: at unit_mm
-    double unit_mm = 1;
-    std::shared_ptr<const LightFilter> filter;
-};
-
-class Beams {
-public:
-    Beams(const Scene& scene, const Object& object, const BackLightOptions& options)
-        : object_(object), options_(options) {
-        for (const Light& light : scene.lights) std::visit([&](const auto& kind) { add(kind); }, light);
-    }
-
-    std::vector<BackBeam> take() { return std::move(beams_); }
-
-private:
-    void add(const DirectionalLight& light) {
-        std::shared_ptr<const LightFilter> filter;
-        if (!light.filter.empty())
-            filter = std::make_shared<const LightFilter>(light.filter, light.direction, boundingRadius(object_));
-        const DiscSamples disc = discSamples(light, options_.beam_count, options_.seed);
-        for (const Vec3f& wi : disc.directions)
-            beams_.push_back({.place = toDouble(wi), .irradiance = disc.weight * light.irradiance, .filter = filter});
-    }
-    void add(const PointLight& light) {
-        beams_.push_back({.place = object_.longest_mm * light.position,
-                          .from_point = true,
-                          .irradiance = light.intensity,
-                          .unit_mm = object_.longest_mm});
-    }
-    void add(const EnvironmentLight& light) {
-        for (const EnvironmentBeam& part : environmentBeams(Environment(light), options_.beam_count, options_.seed))
-            beams_.push_back({.place = part.wi, .irradiance = part.irradiance});
-    }
-
-    const Object& object_;
-    const BackLightOptions& options_;
-    std::vector<BackBeam> beams_;
-};
-
-Vec3 normalAt(const Mesh& mesh, const RayHit& hit) {
-    if (mesh.normals.empty()) return toDouble(hit.normal);
-    const auto& [a, b, c] = mesh.triangles[hit.triangle];
-    const double u = static_cast<double>(hit.u), v = static_cast<double>(hit.v);
-    const Vec3 sum =
-        (1 - u - v) * toDouble(mesh.normals[a]) + u * toDouble(mesh.normals[b]) + v * toDouble(mesh.normals[c]);
-    return length(sum) > 0 ? normalize(sum) : toDouble(hit.normal);
-}
 
 // A line from a visible point to the light, as far as it has been followed.
 struct Line {
@@ -188,10 +133,9 @@ std::vector<Rgbf> backLight(const VisibleSurface& visible, const Scene& scene, c
     const std::size_t count = visible.positions.size();
     std::vector<Rgbf> result(count);
     if (options.thickness == Thickness::nothing) return result;
-    const std::vector<BackBeam> beams = Beams(scene, object, options).take();
-    const TransmittedCosine transmitted_cosine(options.eta);
-    const Rgb total = profile.total();
-    const double spacing_mm = object.longest_mm / std::max(visible.width, visible.height);
+    const std::vector<BackBeam> beams = backBeams(scene, object, options);
+    const LightThrough through(object, profile, options.eta,
+                               object.longest_mm / std::max(visible.width, visible.height));
     parallelFor((count + block - 1) / block, options.threads, [&](std::size_t part) {
         if (observer.cancelled()) throw interruptedError();
         Walls walls(visible, object, rays, options);
@@ -202,15 +146,13 @@ std::vector<Rgbf> backLight(const VisibleSurface& visible, const Scene& scene, c
             walls.follow();
             for (const Line& line : walls.lines()) {
                 if (!line.way_out || line.shadowed) continue;
-                const Vec3 entry = line.origin + line.out * line.wi;
-                const Vec3 normal = normalAt(object.mesh, *line.way_out);
-                const double cosine = dot(normal, line.wi);
-                if (cosine <= 0) continue;
-                const double way = options.thickness == Thickness::material ? line.material : line.out;
-                Rgb flux = static_cast<double>(transmitted_cosine(static_cast<float>(cosine))) * beam.irradiance;
-                if (beam.filter) flux = flux * (*beam.filter)(entry, spacing_mm);
-                if (beam.from_point) flux = std::pow(beam.unit_mm / (line.end - line.out), 2) * flux;
-                sums[line.sample - begin] = sums[line.sample - begin] + flux * (total - profile.encircled(way));
+                Rgb& sum = sums[line.sample - begin];
+                sum = sum + through(beam, {.from = line.origin,
+                                           .wi = line.wi,
+                                           .out = line.out,
+                                           .way = options.thickness == Thickness::material ? line.material : line.out,
+                                           .behind = line.end - line.out,
+                                           .triangle = line.way_out->triangle});
             }
         }
         for (std::size_t i = begin; i < end; ++i) result[i] = toFloat(sums[i - begin]);
