@@ -83,6 +83,18 @@ Json plateJson(const Paper& paper, const Plate& which, const PaperPlate& plate) 
     return json;
 }
 
+// Returns the file's name: there are no sheets of pictures in a .pdf.
+std::string drawPlate(const PaperPlate& plate, const std::string& stem, const std::string& ending) {
+    if (!plate.sheet) {
+        drawFigure(plate.figure, stem + ending);
+        return stem + ending;
+    }
+    const std::vector<std::string> formats = sheetFormats();
+    const bool has = std::ranges::find(formats, ending) != formats.end();
+    drawSheet(*plate.sheet, stem + (has ? ending : ".svg"));
+    return stem + (has ? ending : ".svg");
+}
+
 JobResult runPaper(const Job& job, Engine& engine, Observer& observer) {
     const Options options(job);
     const Paper& paper = findPaper(options.text("paper"));
@@ -96,11 +108,16 @@ JobResult runPaper(const Job& job, Engine& engine, Observer& observer) {
                        .walks = static_cast<std::uint64_t>(options.number("reference_walks")),
                        .seed = job.seed,
                        .threads = static_cast<int>(options.number("threads")),
-                       .backend = options.text("backend")};
+                       .backend = options.text("backend"),
+                       .object = options.text("object"),
+                       .environment = options.text("environment"),
+                       .size = static_cast<int>(options.number("picture_size"))};
     std::vector<PaperPlate> plates;
     for (const Plate& which : figures) {
         plates.push_back(which.figure->make(run));
-        plates.back().figure.metadata = {{"program", fmt::format("Searchlight {}", version())}, {"job", jobJson(job)}};
+        PaperPlate& plate = plates.back();
+        (plate.sheet ? plate.sheet->metadata : plate.figure.metadata) = {
+            {"program", fmt::format("Searchlight {}", version())}, {"job", jobJson(job)}};
     }
 
     JobResult result;
@@ -116,14 +133,14 @@ JobResult runPaper(const Job& job, Engine& engine, Observer& observer) {
         if (!folder.empty()) {
             const std::string stem =
                 (folder / fmt::format("{}_{}{}", paper.id, figures[i].stem, figures[i].figure->id)).string();
-            drawFigure(plates[i].figure, stem + ending);
-            writeFile(stem + ".csv", figureCsv(plates[i].figure));
+            const std::string drawn = drawPlate(plates[i], stem, ending);
+            writeFile(stem + ".csv", plates[i].sheet ? plates[i].csv : figureCsv(plates[i].figure));
             writeFile(stem + ".txt", text);
             Json whole = documentJson("searchlight-paper/1", job);
             for (const auto& [key, value] : json.items()) whole[key] = value;
             writeFile(stem + ".json", whole.dump(1) + "\n");
-            json["files"] = {stem + ending, stem + ".csv", stem + ".txt", stem + ".json"};
-            observer.log(LogLevel::info, fmt::format("wrote {}{}", stem, ending));
+            json["files"] = {drawn, stem + ".csv", stem + ".txt", stem + ".json"};
+            observer.log(LogLevel::info, fmt::format("wrote {}", drawn));
         }
         document["figures"].push_back(std::move(json));
     }
@@ -156,6 +173,21 @@ Command paperCommand() {
                          .value = std::string("svg"),
                          .choices = {"svg", "png", "pdf"},
                          .doc = "of the figures"},
+                        {.name = "object",
+                         .type = ParamType::text,
+                         .value = std::string("statue"),
+                         .doc = "a closed mesh, or a built-in object, where the paper shows a scan"},
+                        {.name = "environment",
+                         .type = ParamType::text,
+                         .value = std::string(),
+                         .doc = "a picture of all directions, where the paper has one; empty: two discs of light"},
+                        {.name = "picture_size",
+                         .type = ParamType::integer,
+                         .unit = "px",
+                         .min = 0,
+                         .max = 2048,
+                         .value = 0.0,
+                         .doc = "side of each rendered picture; 0: the figure's own, for a minute or two"},
                         option::backend(),
                         option::threads()},
             .positional = "paper",

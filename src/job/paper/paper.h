@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -9,6 +10,7 @@
 
 #include "base/figure.h"
 #include "base/observer.h"
+#include "draw/contact_sheet.h"
 #include "job/engine.h"
 #include "job/json.h"
 
@@ -24,7 +26,9 @@ struct PaperStatement {
 /// A figure, what had to be chosen for it, and what it shows.
 struct PaperPlate {
     Figure figure;
-    std::vector<std::string> choices;  ///< where the paper's text leaves a setting open
+    std::optional<ContactSheet> sheet;  ///< in place of the figure, where the paper shows pictures
+    std::string csv;                    ///< the sheet's numbers
+    std::vector<std::string> choices;   ///< where the paper's text leaves a setting open
     std::vector<PaperStatement> statements;
     Json values = Json::object();  ///< the numbers behind the statements
     std::string table;             ///< of a table: ours beside theirs, as lines of text
@@ -38,6 +42,9 @@ struct PaperRun {
     std::uint64_t seed = 1;
     int threads = 0;
     std::string backend = "auto";
+    std::string object = "statue";  ///< where the paper shows a scan
+    std::string environment;        ///< a picture of all directions, where the paper has one; empty: discs of light
+    int size = 0;                   ///< side of each picture in pixels; 0: the figure's own
 };
 
 struct PaperFigure {

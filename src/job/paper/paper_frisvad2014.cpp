@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "base/text.h"
+#include "job/paper/frisvad2014_pictures.h"
 #include "job/paper/paper.h"
 #include "job/plot/plane_views.h"
 
@@ -440,11 +441,19 @@ Paper frisvad2014Paper() {
                 "Frisvad, Hachisuka, Kjeldsen: Directional dipole model for subsurface scattering. ACM Transactions "
                 "on Graphics 34(1), 2014",
             .figures = {
+                {"1", "a scan in white grapefruit juice, four models", frisvad2014::figure1},
                 {"4", "diffuse reflectance at normal incidence, three absorptions", figure4},
                 {"5", "diffuse reflectance along the plane of incidence, three angles", figure5},
                 {"6", "R_d over the surface in false colour, four angles", figure6},
+                {"7", "simple shapes in eight materials, four models", frisvad2014::figure7},
+                {"8", "the scan of figure 1 in marble", frisvad2014::figure8},
+                {"9", "RMSE and SSIM of the pictures of figure 7", frisvad2014::figure9},
+                {"10", "squared differences of figures 1 and 8", frisvad2014::figure10},
+                {"11", "light from many directions, four materials", frisvad2014::figure11},
                 {"12", "the curves at 45 degrees without single scattering", figure12},
                 {"13", "where the directional dipole is negative, and clamped", figure13},
+                {"14", "the plane in which the source is mirrored", frisvad2014::figure14},
+                {"15", "the reciprocal mean", frisvad2014::figure15},
             }};
 }
 
