@@ -6,6 +6,15 @@
 //
 // With isotropic scattering the azimuths of a walk are independent: the mean of r^2 over them is the sum of the squared
 // lateral steps, and x stays where the beam put it. Such walks know z alone.
+//
+// Moments have controls. With v = (-i k, 0, q), q^2 = kappa^2 + k^2, exp(-v r) psi(v Omega / kappa) is what a walk is
+// worth to some end, exactly: its change along a walk has mean 0, and so have those of its derivatives by k,
+//   V1 = exp(-kappa z) [x psi - (u / kappa) psi'],
+//   V2 = exp(-kappa z) [(r^2 + 2 z / kappa) psi - (2 / kappa) (x u + y v + w / kappa) psi' + (1 - w^2) / kappa^2
+//   psi''],
+// psi at w. What they lose where a walk leaves or is reflected is known on average: their values at the entry. Nearly
+// all of it is x and r^2 there. With isotropic scattering psi = 1 / (1 + kappa w), and the mean of x u + y v over
+// azimuths is the last flight's share.
 #include "transport/half_space/guided_walk.h"
 
 #include <algorithm>
@@ -13,6 +22,8 @@
 #include <cmath>
 #include <cstring>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "transport/walk/long_walk.h"
 
@@ -30,6 +41,7 @@ struct alignas(64) GuidedLanes {
     float x[kLanes], y[kLanes], z[kLanes];  // isotropic: x is the last flight, y is r^2 so far
     float u[kLanes], v[kLanes], w[kLanes];  // direction before the collision to come; isotropic: u is the mean x
     float weight[kLanes];                   // times exp(-kappa z)
+    float lost_x[kLanes], lost_r2[kLanes];  // of V1 and V2 so far
     std::int32_t order[kLanes];
     std::uint64_t s0[kLanes / 2], s1[kLanes / 2];
 };
@@ -156,26 +168,83 @@ private:
         const FloatV weight = hn::Load(d, lanes_.weight + at), at_surface = hn::Mul(weight, rate);
         const FloatV change = hn::Sub(rest, beyond);  // of the length
         FloatV x = hn::Load(d, lanes_.x + at), y = hn::Load(d, lanes_.y + at);
+        const FloatV onward = hn::Div(at_surface, inward_rate);
         if constexpr (kIsotropic) {
-            // (length + change)^2 - length^2
-            const FloatV square = hn::Mul(change, hn::MulAdd(hn::Set(d, 2.0f), x, change));
-            y = hn::MulAdd(square, hn::NegMulAdd(w, w, one), y);
+            const FloatV sine2 = hn::NegMulAdd(w, w, one), two = hn::Set(d, 2.0f);
+            // r^2 after the first `length + change` of the flight in place of all.
+            const auto after = [&](FloatV by)
+                                   HWY_ATTR { return hn::MulAdd(hn::Mul(by, hn::MulAdd(two, x, by)), sine2, y); };
+            const FloatV surface = after(hn::Neg(beyond)), flight = hn::Sub(x, beyond);
+            const FloatV slope = set(guided_.inverse_kappa);
+            const auto value = [&](FloatV weight_psi, FloatV psi, FloatV cosine) HWY_ATTR {
+                const FloatV lateral = hn::Mul(sine2, hn::Add(flight, psi));
+                return hn::Mul(weight_psi, hn::MulAdd(hn::Add(psi, psi), hn::MulAdd(cosine, slope, lateral), surface));
+            };
+            FloatV loss = value(weight, hn::Div(one, rate), w);
+            if constexpr (kFresnel)
+                loss = hn::Sub(loss, hn::IfThenZeroElse(leaves, value(onward, hn::Div(one, inward_rate), up)));
+            lose(crosses, loss, lanes_.lost_r2 + at);
+            y = after(change);
         } else {
-            x = hn::MulAdd(change, hn::Load(d, lanes_.u + at), x);
-            y = hn::MulAdd(change, hn::Load(d, lanes_.v + at), y);
+            const FloatV u = hn::Load(d, lanes_.u + at), v = hn::Load(d, lanes_.v + at);
+            if (guided_.inverse_kappa > 0)
+                loseMoments(at, crosses, leaves, at_surface, hn::NegMulAdd(beyond, u, x), hn::NegMulAdd(beyond, v, y));
+            x = hn::MulAdd(change, u, x);
+            y = hn::MulAdd(change, v, y);
             hn::Store(x, d, lanes_.x + at);
         }
         hn::Store(y, d, lanes_.y + at);
         hn::Store(hn::IfThenElse(crosses, hn::Mul(rest, up), z), d, lanes_.z + at);
         hn::Store(hn::IfThenElse(crosses, up, w), d, lanes_.w + at);
-        hn::Store(hn::IfThenElse(crosses, hn::Div(at_surface, inward_rate), weight), d, lanes_.weight + at);
+        hn::Store(hn::IfThenElse(crosses, onward, weight), d, lanes_.weight + at);
         if (hn::AllFalse(d, leaves)) return;
         storeSet(at_surface, leaves, d, exits_.weight + exits_.count);
         storeSet(kIsotropic ? hn::Load(d, lanes_.u + at) : x, leaves, d, exits_.x + exits_.count);
         storeSet(y, leaves, d, exits_.y + exits_.count);
+        storeSet(hn::Load(d, lanes_.lost_x + at), leaves, d, exits_.lost_x + exits_.count);
+        storeSet(hn::Load(d, lanes_.lost_r2 + at), leaves, d, exits_.lost_r2 + exits_.count);
         storeSet(hn::Load(Int(), lanes_.order + at), hn::RebindMask(Int(), leaves), Int(), exits_.order + exits_.count);
         exits_.count += hn::CountTrue(d, leaves);
         free_ |= bitsOf(leaves, at);
+    }
+
+    static HWY_INLINE void lose(FloatM where, FloatV what, float* lost) {
+        const Float d;
+        hn::Store(hn::Add(hn::Load(d, lost), hn::IfThenElseZero(where, what)), d, lost);
+    }
+
+    // What V1 and V2 lose at (x, y) of the surface.
+    HWY_INLINE void loseMoments(std::size_t at, FloatM crosses, FloatM leaves, FloatV weight, FloatV x, FloatV y) {
+        const Float d;
+        const FloatV u = hn::Load(d, lanes_.u + at), v = hn::Load(d, lanes_.v + at), w = hn::Load(d, lanes_.w + at);
+        const FloatV w2 = hn::Mul(w, w), sine2 = hn::Sub(hn::Set(d, 1.0f), w2), per = set(guided_.inverse_kappa);
+        // psi and its derivatives: terms of even and of odd powers of w, which also make up those at -w.
+        FloatV even[3] = {hn::Zero(d), hn::Zero(d), hn::Zero(d)}, odd[3] = {even[0], even[0], even[0]};
+        for (std::size_t i = guided_.exact[0].size(); i > 0; i -= 2)
+            for (std::size_t k = 0; k < 3; ++k) {
+                odd[k] = hn::MulAdd(odd[k], w2, hn::Set(d, guided_.exact[k][i - 1]));
+                even[k] = hn::MulAdd(even[k], w2, hn::Set(d, guided_.exact[k][i - 2]));
+            }
+        const FloatV r2 = hn::MulAdd(x, x, hn::Mul(y, y)), radial = hn::MulAdd(x, u, hn::Mul(y, v));
+        const auto value = [&](FloatV cosine, const FloatV(&psi)[3], FloatV& first, FloatV& second) HWY_ATTR {
+            const FloatV slope = hn::Mul(per, psi[1]);
+            first = hn::NegMulAdd(u, slope, hn::Mul(x, psi[0]));
+            const FloatV turned = hn::MulAdd(cosine, per, radial);
+            second = hn::NegMulAdd(hn::Add(turned, turned), slope, hn::Mul(r2, psi[0]));
+            second = hn::MulAdd(hn::Mul(sine2, hn::Mul(per, per)), psi[2], second);
+        };
+        FloatV psi[3], first, second;
+        for (std::size_t k = 0; k < 3; ++k) psi[k] = hn::MulAdd(odd[k], w, even[k]);
+        value(w, psi, first, second);
+        if constexpr (kFresnel) {
+            FloatV first_on, second_on;
+            for (std::size_t k = 0; k < 3; ++k) psi[k] = hn::NegMulAdd(odd[k], w, even[k]);
+            value(hn::Neg(w), psi, first_on, second_on);
+            first = hn::Sub(first, hn::IfThenZeroElse(leaves, first_on));
+            second = hn::Sub(second, hn::IfThenZeroElse(leaves, second_on));
+        }
+        lose(crosses, hn::Mul(weight, first), lanes_.lost_x + at);
+        lose(crosses, hn::Mul(weight, second), lanes_.lost_r2 + at);
     }
 
     HWY_INLINE void flush() {
@@ -184,6 +253,8 @@ private:
             sums_.total += weight;
             sums_.x += weight * x;
             sums_.r2 += weight * (kIsotropic ? y : x * x + y * y);
+            sums_.x_control += static_cast<double>(exits_.lost_x[i]) - guided_.x_control;
+            sums_.r2_control += static_cast<double>(exits_.lost_r2[i]) - guided_.r2_control;
         }
         if constexpr (!kIsotropic)
             if (tally_ != nullptr) addTo(*tally_);
@@ -250,6 +321,8 @@ private:
         put(hn::IfThenElse(starts, hn::Mul(length, cosine), hn::Set(d, 1e30f)), lanes_.z);
         put(kIsotropic ? x : sine, lanes_.u);
         put(hn::Zero(d), lanes_.v);
+        put(hn::Zero(d), lanes_.lost_x);
+        put(hn::Zero(d), lanes_.lost_r2);
         put(cosine, lanes_.w);
         put(hn::IfThenElseZero(starts, set(1 / rate)), lanes_.weight);
         storeWhere(hn::RebindMask(Int(), free), hn::Zero(Int()), lanes_.order + at);
@@ -267,7 +340,7 @@ private:
     GuidedSums sums_;
     GuidedLanes lanes_;
     struct {
-        float weight[kLanes + 16], x[kLanes + 16], y[kLanes + 16];
+        float weight[kLanes + 16], x[kLanes + 16], y[kLanes + 16], lost_x[kLanes + 16], lost_r2[kLanes + 16];
         std::int32_t order[kLanes + 16];
         std::size_t count = 0;
     } exits_;
@@ -304,7 +377,8 @@ namespace {
 constexpr int kMoments = 64;
 
 // What is left of l = 0, with all higher moments eliminated; positive below the root.
-double residue(const HalfSpaceWalk& walk, double kappa, std::array<double, 4>& moments) {
+template <std::size_t kCount>
+double residue(const HalfSpaceWalk& walk, double kappa, std::array<double, kCount>& moments) {
     const double albedo = 1 - walk.absorbed;
     double ratio[kMoments + 1] = {};
     for (int l = kMoments - 1; l > 0; --l) {
@@ -313,9 +387,15 @@ double residue(const HalfSpaceWalk& walk, double kappa, std::array<double, 4>& m
         ratio[l] = -kappa * l / pivot;
     }
     moments[0] = 1;
-    for (std::size_t l = 1; l < 4; ++l) moments[l] = moments[l - 1] * ratio[l];
+    for (std::size_t l = 1; l < kCount; ++l) moments[l] = moments[l - 1] * ratio[l];
     return walk.absorbed + kappa * ratio[1];
 }
+
+// Below, floats would have to hold the difference of large numbers.
+constexpr double kLeastControl = 1e-3;
+// psi, 1 on average, is cut where a term is less than this; where that takes too many there is no control.
+constexpr double kCut = 1e-7;
+constexpr std::size_t kMostTerms = 24;
 
 std::array<double, 4> powersOf(const std::array<double, 4>& legendre) {
     const auto& [p0, p1, p2, p3] = legendre;
@@ -336,6 +416,7 @@ GuidedWalk::GuidedWalk(const HalfSpaceWalk& half_space) : walk(half_space) {
             high = middle;
     }
     kappa = low;
+    makeControls();
     const auto value = [](const std::array<double, 4>& p, double w) {
         return p[0] + w * (p[1] + w * (p[2] + w * p[3]));
     };
@@ -358,6 +439,45 @@ GuidedWalk::GuidedWalk(const HalfSpaceWalk& half_space) : walk(half_space) {
         if (least > 0.1) break;
     }
     most *= 1.0001;  // between those points, and rounded
+}
+
+void GuidedWalk::makeControls() {
+    if (kappa < kLeastControl) return;
+    const double sine = walk.sin_beam, cosine = walk.cos_beam;
+    if (walk.g == 0) {
+        inverse_kappa = 1 / kappa;
+        const double psi_in = 1 / (1 + kappa * cosine);
+        r2_control = 2 * psi_in * psi_in * (sine * sine * psi_in + cosine * inverse_kappa);
+        return;
+    }
+    // Moments fall by about kappa / 2 from one to the next.
+    std::array<double, kMoments> moments{};
+    residue(walk, kappa, moments);
+    std::size_t terms = 4;
+    while (terms < kMostTerms && std::abs(moments[terms]) * static_cast<double>(2 * terms + 1) > kCut) terms += 2;
+    if (terms == kMostTerms) return;
+    inverse_kappa = 1 / kappa;
+    // Legendre's polynomials by their recurrence, as powers of w.
+    std::vector<double> before(terms), legendre(terms), powers(terms);
+    legendre[0] = 1;
+    for (std::size_t l = 0; l < terms; ++l) {
+        const double n = static_cast<double>(l);
+        std::vector<double> next(terms);
+        for (std::size_t i = 0; i < terms; ++i) {
+            powers[i] += (2 * n + 1) * moments[l] * legendre[i];
+            next[i] = ((i > 0 ? (2 * n + 1) * legendre[i - 1] : 0) - n * before[i]) / (n + 1);
+        }
+        before = std::exchange(legendre, next);
+    }
+    double in[3] = {};  // psi and its derivatives along the beam
+    for (std::size_t k = 0; k < 3; ++k) {
+        for (std::size_t i = terms; i-- > 0;) in[k] = in[k] * cosine + powers[i];
+        exact[k].assign(powers.begin(), powers.end());
+        for (std::size_t i = 1; i < terms; ++i) powers[i - 1] = static_cast<double>(i) * powers[i];
+        powers.back() = 0;
+    }
+    x_control = -sine * inverse_kappa * in[1];
+    r2_control = inverse_kappa * inverse_kappa * (sine * sine * in[2] - 2 * cosine * in[1]);
 }
 
 bool GuidedWalk::useful() const { return walk.absorbed < 0.45 * (1 - walk.g * (1 - walk.absorbed)); }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "transport/half_space/half_space_walk.h"
 
@@ -22,11 +23,21 @@ struct GuidedWalk {
     std::array<double, 4> psi{};    ///< its powers of w; Legendre series up to order 3, so that
     std::array<double, 4> after{};  ///< its mean over the phase function is known, too
     double most = 1;                ///< the largest value of psi
+
+    // Controls of the moments.
+    double inverse_kappa = 0;              ///< 0: there are none
+    double x_control = 0, r2_control = 0;  ///< their means
+    std::array<std::vector<float>, 3>
+        exact;  ///< g != 0: all of psi and its two derivatives, powers of w, an even number
+
+private:
+    void makeControls();
 };
 
 /// Sums over all walks of what left, after one collision or more: weight, weight times x, times r^2.
 struct GuidedSums {
     double total = 0, x = 0, r2 = 0;
+    double x_control = 0, r2_control = 0;  ///< nearly proportional to the errors of these moments, 0 on average
     std::uint64_t collisions = 0;
 };
 

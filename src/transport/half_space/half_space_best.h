@@ -34,6 +34,7 @@ struct BestPlan {
     TallyLayout layout;
     double guided_share = 0;                 ///< guided walks for each walk; they tally the total and its moments
     double guided_part = 0;                  ///< what counts of their bins; 1: there are no other walks
+    double x_slope = 0, r2_slope = 0;        ///< so much of their controls is taken off guided moments
     bool guided_moments = false;             ///< those of all orders do, alone
     bool counts_beyond = false;              ///< what they leave to the bins is beyond them
     std::optional<SingleScattering> single;  ///< at normal incidence; otherwise walks tally order 1, too

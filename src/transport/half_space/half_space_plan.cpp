@@ -14,14 +14,51 @@ constexpr double kMostForesight = 0.7;
 
 // The pilot has numbers of its own, the same for every seed.
 constexpr std::uint64_t kPilotSeed = 0x70696C6F74, kGuidedStream = 0x677569646564;
-constexpr std::uint64_t kPilotChunks = 16, kPilotWalks = 128, kPilotGuided = 512;
-constexpr double kStepTime = 5.5, kGuidedStart = 5;  // ns
-constexpr double kGuidedStepTime = 2.2, kGuidedIsotropicStepTime = 1.5;
+constexpr std::uint64_t kPilotChunks = 16, kPilotWalks = 128, kPilotGuided = 256;
+constexpr double kStepTime = 4.5, kForwardStepTime = 6, kGuidedStart = 28;  // ns
+constexpr double kGuidedStepTime = 3.5, kGuidedIsotropicStepTime = 2;
 
 // The part of the time for guided walks, so that no moment is worse known than by the analogue walk. Walks that
 // foresee gain less in forward scattering; with absorption guided walks are short.
-constexpr double kPart = 0.15, kForwardPart = 0.6, kAbsorbingPart = 0.2;
-constexpr double kForward = 0.4, kAbsorbing = 0.01;
+constexpr double kPart = 0.08, kForwardPart = 0.6, kAbsorbingPart = 0.12, kAnisotropicPart = 0.35;
+constexpr double kForward = 0.4, kAbsorbing = 0.01, kStronglyAbsorbing = 0.2;
+
+// y against x by least squares, from sums over chunks.
+class Slope {
+public:
+    void add(double x, double y) { ++n_, x_ += x, y_ += y, xx_ += x * x, xy_ += x * y; }
+    double value() const {
+        const double variance = n_ * xx_ - x_ * x_;
+        return variance > 0 ? (n_ * xy_ - x_ * y_) / variance : 0;
+    }
+
+private:
+    double n_ = 0, x_ = 0, y_ = 0, xx_ = 0, xy_ = 0;
+};
+
+struct GuidedPilot {
+    double total = 0, collisions = 0;  // per walk
+    double x_slope = 0, r2_slope = 0;  // of the moments by their controls
+};
+
+// Chunks that the foreseeing pilot leaves.
+GuidedPilot guidedPilot(const GuidedWalk& guided) {
+    GuidedPilot pilot;
+    Slope x, r2;
+    // Without a control there is no slope to be found, and each chunk may have a very long walk.
+    const std::uint64_t chunks = guided.inverse_kappa > 0 ? kPilotChunks : 1;
+    const auto walks = static_cast<double>(chunks * kPilotGuided);
+    for (std::uint64_t chunk = 0; chunk < chunks; ++chunk) {
+        const GuidedSums led = walkGuidedChunk(guided, kPilotSeed, kPilotChunks + chunk, kPilotGuided);
+        pilot.total += led.total / walks;
+        pilot.collisions += static_cast<double>(led.collisions) / walks;
+        x.add(led.x_control, led.x);
+        r2.add(led.r2_control, led.r2);
+    }
+    pilot.x_slope = x.value();
+    pilot.r2_slope = r2.value();
+    return pilot;
+}
 
 // to = (1 - part) to + weight from.
 void mix(const ExitTally::Sums& from, double weight, double part, ExitTally::Sums& to) {
@@ -42,6 +79,9 @@ BestPlan::BestPlan(const HalfSpaceWalk& half_space, std::span<const double> edge
       layout{RadialBins(edges)} {
     if (walk.sin_beam == 0) single = singleScattering(walk, edges);
     if (!guided.useful()) return;
+    const GuidedPilot led = guidedPilot(guided);
+    x_slope = led.x_slope;
+    r2_slope = led.r2_slope;
     if (!foresees) {
         guided_share = guided_part = 1;
         return;
@@ -55,14 +95,14 @@ BestPlan::BestPlan(const HalfSpaceWalk& half_space, std::span<const double> edge
     }
     constexpr std::uint64_t walks = kPilotChunks * kPilotWalks;
     guided_moments = true;
-    const GuidedSums led = walkGuidedChunk(guided, kPilotSeed, kPilotChunks, kPilotGuided);
-    const double total = led.total / kPilotGuided;
-    const double time = kStepTime * static_cast<double>(steps) / walks;
-    const double guided_time = kGuidedStart + (walk.g == 0 ? kGuidedIsotropicStepTime : kGuidedStepTime) *
-                                                  static_cast<double>(led.collisions) / kPilotGuided;
-    const double part = walk.g > kForward                           ? kForwardPart
-                        : walk.g == 0 && walk.absorbed > kAbsorbing ? kAbsorbingPart
-                                                                    : kPart;
+    const double total = led.total;
+    const double time = (walk.g == 0 ? kStepTime : kForwardStepTime) * static_cast<double>(steps) / walks;
+    const double guided_time =
+        kGuidedStart + (walk.g == 0 ? kGuidedIsotropicStepTime : kGuidedStepTime) * led.collisions;
+    const double part = walk.g > kForward                                   ? kForwardPart
+                        : walk.g != 0 || walk.absorbed > kStronglyAbsorbing ? kAnisotropicPart
+                        : walk.absorbed > kAbsorbing                        ? kAbsorbingPart
+                                                                            : kPart;
     guided_share = part / (1 - part) * time / guided_time;
     const std::size_t last = layout.slots() - 1;
     counts_beyond = flux.estimate(last, walks).mean > 0.02 * total;
@@ -107,8 +147,8 @@ std::uint64_t walkBestChunk(const BestPlan& plan, std::uint64_t seed, std::uint6
     if (led == 0) return collisions;
     // Without absorption everything leaves.
     more.flux[0] = (plan.walk.absorbed == 0 ? n : scale * all.total) - one.flux[0];
-    more.x = scale * all.x - one.x;
-    more.r2 = scale * all.r2 - one.r2;
+    more.x = scale * (all.x - plan.x_slope * all.x_control) - one.x;
+    more.r2 = scale * (all.r2 - plan.r2_slope * all.r2_control) - one.r2;
     if (plan.counts_beyond) {
         more.flux.back() = more.flux[0];
         for (std::size_t slot = 1; slot + 1 < more.flux.size(); ++slot) more.flux.back() -= more.flux[slot];

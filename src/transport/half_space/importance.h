@@ -25,7 +25,7 @@ struct ImportanceTable {
 struct BestTuning {
     double roulette = 0.8;  ///< weight times importance below meets it
     double far = 0.4;       ///< rings count by this power of their radius: what is far is harder to know
-    double total = 0.02;    ///< what the total counts beside the rings
+    double total = 0.01;    ///< what the total counts beside the rings
     double depth = 0.25;    ///< a walk is as important as a source so far below it, in reduced mean free paths
     double stretched = 0;   ///< part of the flights that are drawn longer
 };
