@@ -197,9 +197,22 @@ void applyMaterial(const MaterialFlags& flags, SceneMaterial& material) {
     if (flags.has("material_scale")) material.scale = flags.number("material_scale", "scale");
 }
 
-Job jobOf(const Typed& typed) {
+// Where an object is expected a scene file may stand: it has one.
+std::string sceneInPlaceOfObject(Typed& typed) {
+    if (!typed.command->uses_scene) return {};
+    std::vector<std::string>& objects = typed.scene_flags["object"];
+    if (objects.empty() || !objects.back().ends_with(".json")) return {};
+    std::string path = objects.back();
+    if (!typed.scene.empty())
+        throw usageError(fmt::format("two scenes are given: {} and {}", typed.scene, path), "one of them");
+    objects.clear();
+    return path;
+}
+
+Job jobOf(Typed& typed) {
     Job job;
     job.command = typed.command->name;
+    if (std::string path = sceneInPlaceOfObject(typed); !path.empty()) typed.scene = std::move(path);
     if (!typed.scene.empty()) job.scene = parseScene(readFile(typed.scene), typed.scene);
     if (typed.command->uses_material || typed.command->uses_scene)
         applyMaterial(MaterialFlags(typed), job.scene.material);
@@ -298,7 +311,7 @@ Arguments parseArguments(int argc, char** argv) {
         if (!job_output.empty()) arguments.job->output = job_output;
         return arguments;
     }
-    for (const Typed& typed : all)
+    for (Typed& typed : all)
         if (typed.app == app) {
             arguments.job = jobOf(typed);
             return arguments;

@@ -10,6 +10,7 @@
 #include "base/files.h"
 #include "base/text.h"
 #include "draw/drawing.h"
+#include "draw/false_color.h"
 #include "draw/plot_area.h"
 #include "draw/svg.h"
 #include "draw/text_width.h"
@@ -24,6 +25,7 @@ namespace {
 constexpr double margin = 16, gap = 6;  // px, around the sheet and between pictures
 constexpr double title_size = 14, heading_size = 12, note_size = 10, caption_size = 11;
 constexpr double title_line = 19, heading_line = 15, note_line = 14, caption_line = 15;
+constexpr double bar_gap = 14, longest_bar = 300;
 constexpr double widest_heading = 150;  // of a row: longer ones are broken
 constexpr std::string_view soft_ink = "#4d4d4d";
 
@@ -79,7 +81,8 @@ Drawing layoutSheet(const ContactSheet& sheet) {
     const double titles = sheet.row_title.empty() ? 0 : heading_line + 4;
     const double left = std::ceil(margin + titles + (row_heads.width > 0 ? row_heads.width + 10 : 0));
     Drawing drawing;
-    drawing.width = std::max(left + columns * step_x - gap + margin, 320.0);
+    const double right = left + columns * step_x - gap;
+    drawing.width = std::max(right + (sheet.color ? bar_gap + colorBarWidth(*sheet.color) : 0) + margin, 320.0);
     const Lines title = wrapText(sheet.title, drawing.width - 2 * margin, title_size, true);
     const Lines caption = wrapText(sheet.caption, drawing.width - 2 * margin, caption_size);
     const double column_title = margin + title_line * static_cast<double>(title.size());
@@ -125,6 +128,8 @@ Drawing layoutSheet(const ContactSheet& sheet) {
             shapes.push_back(
                 Text{{x + 0.5 * width, y + height + 11}, sheet.cells[i].note, note_size, Anchor::middle, soft_ink});
     }
+    if (sheet.color)
+        drawColorBar(shapes, *sheet.color, {right + bar_gap, top, drawing.width, std::min(bottom, top + longest_bar)});
     drawLines(shapes, caption, {margin, bottom + 8 + caption_size}, caption_line, caption_size, Anchor::start,
               soft_ink);
     return drawing;
@@ -154,8 +159,10 @@ constexpr Format formats[] = {
 
 }  // namespace
 
+std::string sheetElement(const ContactSheet& sheet) { return svgElement(layoutSheet(sheet), documentOf(sheet)); }
+
 std::string sheetSvg(const ContactSheet& sheet) {
-    return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n" + svgElement(layoutSheet(sheet), documentOf(sheet));
+    return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n" + sheetElement(sheet);
 }
 
 std::vector<std::string> sheetFormats() {

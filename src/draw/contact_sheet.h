@@ -2,9 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "base/figure.h"
 
 namespace searchlight {
 
@@ -19,10 +22,14 @@ struct ContactSheet {
     std::string column_title, row_title;            ///< what changes along them: "Model", "Material"; may be empty
     std::vector<std::string> columns, rows;         ///< one heading each
     std::vector<SheetCell> cells;                   ///< row by row, rows.size() * columns.size()
+    std::optional<Axis> color;                      ///< the scale of pictures in false colour, drawn beside them
     int picture_width = 240, picture_height = 240;  ///< on the sheet, px; a PNG has two pixels for one
     /// Version, sweep...: written into the file, not drawn.
     std::vector<std::pair<std::string, std::string>> metadata;
 };
+
+/// As an <svg> element with the pictures inside, for a page.
+std::string sheetElement(const ContactSheet& sheet);
 
 /// As an SVG document with the pictures inside.
 std::string sheetSvg(const ContactSheet& sheet);

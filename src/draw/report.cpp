@@ -95,6 +95,8 @@ std::string sectionHtml(const ReportSection& section) {
     for (const Figure& figure : section.figures)
         html += fmt::format("<figure>\n{}</figure>\n", svgElement(layoutFigure(figure), figure));
     if (!section.figures.empty()) html += "</div>\n";
+    for (const ContactSheet& sheet : section.sheets)
+        html += fmt::format("<figure>\n{}</figure>\n", sheetElement(sheet));
     return html + "</section>\n";
 }
 

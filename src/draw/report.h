@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/figure.h"
+#include "draw/contact_sheet.h"
 
 namespace searchlight {
 
@@ -19,7 +20,8 @@ struct ReportSection {
     std::string heading;
     std::vector<std::string> paragraphs;  ///< plain text; escaped
     std::vector<ReportTable> tables;
-    std::vector<Figure> figures;  ///< drawn inline as SVG
+    std::vector<Figure> figures;       ///< drawn inline as SVG
+    std::vector<ContactSheet> sheets;  ///< the same, each over the whole width
 };
 
 struct Report {

@@ -19,6 +19,7 @@ Command referenceMeshCommand();
 Command mcmlCommand();
 Command renderCommand();
 Command spheresCommand();
+Command contestCommand();
 Command sweepCommand();
 Command meshCommand();
 Command pointsCommand();

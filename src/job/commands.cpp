@@ -20,6 +20,7 @@ std::span<const Command> commands() {
         mcmlCommand(),
         renderCommand(),
         spheresCommand(),
+        contestCommand(),
         sweepCommand(),
         meshCommand(),
         pointsCommand(),

@@ -7,6 +7,7 @@
 #include "geometry/point_cache.h"
 #include "geometry/surface_points.h"
 #include "render/exitance_sum.h"
+#include "render/screen/contours.h"
 #include "render/screen/tangent_samples.h"
 
 namespace searchlight {
@@ -36,10 +37,15 @@ public:
             return first || options_.find(name)->second != options.find(name)->second;
         };
         const bool object = first || now.points != seen_.points || changed("global_points");
-        const bool view = first || now.view != seen_.view, light = first || now.light != seen_.light;
+        const bool view = first || now.view != seen_.view || changed("global_points"),
+                   light = first || now.light != seen_.light;
         const bool material = first || now.material != seen_.material;
         input_ = input;
-        if (view) patches_ = screenPatches(*input.view, *input.visible, input.threads);
+        if (view) {
+            patches_ = screenPatches(*input.view, *input.visible, input.threads);
+            // Where no points stand in, a poor patch is better than none.
+            if (whole(options, "global_points") > 0) takeContours(patches_);
+        }
         if (view || light) setLight(*input.visible, input.irradiance->transmitted, patches_);
         if (material || changed("samples")) makeSampler(whole(options, "samples"));
         patches_ms_ = milliseconds(begin);

@@ -91,11 +91,18 @@ enum class LightPlace {
     own,      ///< where it asks for it itself, by RenderInput::light: the renderer makes neither points nor light
 };
 
+/// What a technique's accuracy is bought with.
+struct Budget {
+    std::string_view option;     ///< of the technique or of the picture ("points"); empty: it has one price
+    std::vector<double> values;  ///< worth a comparison, from cheap to dear
+};
+
 /// A row of the table: id and one line, options as Params, and how to make one.
 struct TechniqueEntry {
     std::string_view id;  ///< "hierarchical"
     std::string_view summary;
     std::vector<Param> options;
+    Budget budget;
     bool directional = false;  ///< takes models that are not radial
     LightPlace light_at = LightPlace::points;
     bool gl = false;  ///< has a version on OpenGL, which make() gives for a context; null makes the CPU's

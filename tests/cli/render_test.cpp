@@ -79,6 +79,10 @@ TEST_F(Program, FlagsAndASceneFileMeanTheSame) {
 
     writeFile(folder() / "scene.json", scene.dump());
     EXPECT_EQ(json::parse(run("render --scene scene.json --print-job").out), job);
+    // It may stand where an object does, and then alone.
+    EXPECT_EQ(json::parse(run("render scene.json --print-job").out), job);
+    EXPECT_EQ(json::parse(run("contest scene.json --print-job").out).at("scene"), scene);
+    EXPECT_EQ(run("render scene.json --scene scene.json --print-job").exit_code, 2);
     // A flag changes what the file says, and leaves the rest.
     const json changed = json::parse(run("render --scene scene.json --scale 5 --light none --print-job").out);
     EXPECT_EQ(changed.at("scene").at("scale"), 5);
