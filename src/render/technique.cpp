@@ -7,9 +7,11 @@
 #include "render/brute_force.h"
 #include "render/direct.h"
 #include "render/hierarchical.h"
+#include "render/hybrid.h"
 #include "render/local.h"
 #include "render/separable.h"
 #include "render/texture_space.h"
+#include "render/tsm.h"
 
 namespace searchlight {
 
@@ -71,6 +73,16 @@ std::span<const TechniqueEntry> techniques() {
          .options = with(localOptions(), normalBeamOption()),
          .light_at = LightPlace::visible,
          .make = makeLocal},
+        {.id = "tsm",
+         .summary = "a filter of rings around each receiver in what the lights see",
+         .options = with(lightViewOptions(), normalBeamOption()),
+         .light_at = LightPlace::own,
+         .make = makeTsm},
+        {.id = "hybrid",
+         .summary = "texture space for what comes from far, samples around each receiver for what comes from near",
+         .options = with(hybridOptions(), normalBeamOption()),
+         .light_at = LightPlace::own,
+         .make = makeHybrid},
     };
     return entries;
 }
