@@ -6,17 +6,30 @@
 #include <cassert>
 #include <cmath>
 #include <ctime>
+#include <optional>
 
+#include "base/error.h"
+#include "geometry/point_cache.h"
 #include "job/render/render_material.h"
 
 namespace searchlight {
 
 namespace {
 
-constexpr double truth_points = 400'000, truth_error = 0.001;
+constexpr std::size_t truth_points = 200'000;
+constexpr double truth_error = 0.001;
 
 // Radiance behind an object that is shown, after exposure.
 constexpr float ground = 0.02F;
+
+// No home, no cache.
+std::optional<CacheFolder> pointCache() {
+    try {
+        return userPointCache();
+    } catch (const Error&) {
+        return std::nullopt;
+    }
+}
 
 // Processor time of all threads.
 double cpuMs() { return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
@@ -35,11 +48,12 @@ PaperPicture PaperStudio::take(const std::string& technique, const ParamValues& 
     renderer->setScene(scene);
     renderer->setSettings({.width = width,
                            .height = height,
-                           .points = static_cast<std::size_t>(truth_points),
+                           .points = truth_points,
                            .technique = technique,
                            .technique_options = options,
                            .seed = seed,
-                           .threads = run_.threads});
+                           .threads = run_.threads,
+                           .points_cache = pointCache()});
     PaperPicture picture;
     const double begin = cpuMs();
     renderer->start(observer_);
@@ -65,14 +79,8 @@ RenderStages PaperStudio::stages(const std::string& technique) const {
     return renderer->second->stages();
 }
 
-double errorOverSeeds(PaperStudio& studio, const std::string& technique, const ParamValues& options, const Image& truth,
-                      int seeds) {
-    double squares = 0;
-    for (int seed = 1; seed <= seeds; ++seed) {
-        const PaperPicture picture = studio.take(technique, options, static_cast<std::uint64_t>(seed));
-        squares += std::pow(compareImages(picture.image, truth, {.perceptual = false}).relative_rmse, 2);
-    }
-    return std::sqrt(squares / seeds);
+double errorOf(const PaperPicture& picture, const PaperPicture& truth) {
+    return compareImages(picture.image, truth.image, {.perceptual = false}).relative_rmse;
 }
 
 double whereItFallsTo(double wanted, const std::vector<double>& x, const std::vector<double>& errors) {

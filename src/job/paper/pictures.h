@@ -37,7 +37,7 @@ public:
 
     PaperPicture take(const std::string& technique, const ParamValues& options = {}, std::uint64_t seed = 1);
 
-    /// What pictures are judged by: the light of 400,000 points, summed to 0.1 %.
+    /// What pictures are judged by: the light of 200,000 points, summed to 0.1 %.
     PaperPicture truth();
 
     /// What the last picture by that technique was made from. Requires one; valid until the next.
@@ -49,10 +49,8 @@ private:
     std::map<std::string, std::unique_ptr<Renderer>> renderers_;
 };
 
-/// Root mean square of the relative RMSE (over the reference's mean, docs/images.md) of pictures with seeds 1 to
-/// `seeds`.
-double errorOverSeeds(PaperStudio& studio, const std::string& technique, const ParamValues& options, const Image& truth,
-                      int seeds = 2);
+/// The relative RMSE (docs/images.md) of one picture.
+double errorOf(const PaperPicture& picture, const PaperPicture& truth);
 
 /// Where `errors` over `x`, both above 0, falls to `wanted`: between neighbours, and beyond the ends along the line
 /// through the two nearest, both on logarithmic scales. Requires two values, x ascending.
