@@ -106,6 +106,7 @@ ImageError compareImages(const Image& image, const Image& reference, const Image
     error.rmse = std::sqrt(squares / values);
     error.relative_rmse = error.rmse / mean;
     error.mean_difference = signed_sum / values / mean;
+    if (!options.perceptual) return error;
     const double factor = std::exp2(options.exposure);
     error.ssim = meanWhereCovered(ssimMap(image, reference, factor, options.white, options.threads), reference);
     error.flip =

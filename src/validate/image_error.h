@@ -19,6 +19,7 @@ struct ImageErrorOptions {
     double exposure = 0;  ///< stops, on both pictures, for ssim and flip: what a viewer sees at 1 is full white
     double white = 100;   ///< luminance of that white, cd/m^2, for ssim
     double pixels_per_degree = 67.0206;  ///< for flip: 3840 pixels over 0.7 m, seen from 0.7 m
+    bool perceptual = true;              ///< ssim and flip too, which take longest; else they are 0
     int threads = 0;
 };
 

@@ -83,16 +83,25 @@ Json plateJson(const Paper& paper, const Plate& which, const PaperPlate& plate) 
     return json;
 }
 
-// Returns the file's name: there are no sheets of pictures in a .pdf.
-std::string drawPlate(const PaperPlate& plate, const std::string& stem, const std::string& ending) {
-    if (!plate.sheet) {
-        drawFigure(plate.figure, stem + ending);
-        return stem + ending;
+// Draws pictures, or a figure, or a figure and beside it "_pictures". Returns the files' names: there are no sheets of
+// pictures in a .pdf.
+std::vector<std::string> drawPlate(const PaperPlate& plate, const std::string& stem, const std::string& ending) {
+    std::vector<std::string> files;
+    const bool has_figure = !plate.sheet || !plate.figure.series.empty() || !plate.figure.panels.empty();
+    if (has_figure) {
+        files.push_back(stem + ending);
+        drawFigure(plate.figure, files.back());
     }
-    const std::vector<std::string> formats = sheetFormats();
-    const bool has = std::ranges::find(formats, ending) != formats.end();
-    drawSheet(*plate.sheet, stem + (has ? ending : ".svg"));
-    return stem + (has ? ending : ".svg");
+    if (plate.sheet) {
+        const std::vector<std::string> formats = sheetFormats();
+        const bool has = std::ranges::find(formats, ending) != formats.end();
+        files.push_back(stem + (has_figure ? "_pictures" : "") + (has ? ending : ".svg"));
+        drawSheet(*plate.sheet, files.back());
+    }
+    const std::string csv = plate.csv.empty() ? figureCsv(plate.figure) : plate.csv;
+    files.push_back(stem + ".csv");
+    writeFile(files.back(), csv);
+    return files;
 }
 
 JobResult runPaper(const Job& job, Engine& engine, Observer& observer) {
@@ -116,8 +125,8 @@ JobResult runPaper(const Job& job, Engine& engine, Observer& observer) {
     for (const Plate& which : figures) {
         plates.push_back(which.figure->make(run));
         PaperPlate& plate = plates.back();
-        (plate.sheet ? plate.sheet->metadata : plate.figure.metadata) = {
-            {"program", fmt::format("Searchlight {}", version())}, {"job", jobJson(job)}};
+        plate.figure.metadata = {{"program", fmt::format("Searchlight {}", version())}, {"job", jobJson(job)}};
+        if (plate.sheet) plate.sheet->metadata = plate.figure.metadata;
     }
 
     JobResult result;
@@ -133,14 +142,14 @@ JobResult runPaper(const Job& job, Engine& engine, Observer& observer) {
         if (!folder.empty()) {
             const std::string stem =
                 (folder / fmt::format("{}_{}{}", paper.id, figures[i].stem, figures[i].figure->id)).string();
-            const std::string drawn = drawPlate(plates[i], stem, ending);
-            writeFile(stem + ".csv", plates[i].sheet ? plates[i].csv : figureCsv(plates[i].figure));
+            std::vector<std::string> files = drawPlate(plates[i], stem, ending);
             writeFile(stem + ".txt", text);
             Json whole = documentJson("searchlight-paper/1", job);
             for (const auto& [key, value] : json.items()) whole[key] = value;
             writeFile(stem + ".json", whole.dump(1) + "\n");
-            json["files"] = {drawn, stem + ".csv", stem + ".txt", stem + ".json"};
-            observer.log(LogLevel::info, fmt::format("wrote {}", drawn));
+            observer.log(LogLevel::info, fmt::format("wrote {}", files.front()));
+            for (const char* kind : {".txt", ".json"}) files.push_back(stem + kind);
+            json["files"] = files;
         }
         document["figures"].push_back(std::move(json));
     }
@@ -157,7 +166,7 @@ Command paperCommand() {
             .options = {{.name = "paper",
                          .type = ParamType::text,
                          .value = std::string(),
-                         .doc = "frisvad2014 or freude2014",
+                         .doc = "mertens2003, chang2007, frisvad2014 or freude2014",
                          .required = true},
                         {.name = "figure",
                          .type = ParamType::text,

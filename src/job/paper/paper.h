@@ -26,8 +26,8 @@ struct PaperStatement {
 /// A figure, what had to be chosen for it, and what it shows.
 struct PaperPlate {
     Figure figure;
-    std::optional<ContactSheet> sheet;  ///< in place of the figure, where the paper shows pictures
-    std::string csv;                    ///< the sheet's numbers
+    std::optional<ContactSheet> sheet;  ///< where the paper shows pictures: in place of the figure, or beside it
+    std::string csv;                    ///< the sheet's numbers; empty: the figure's
     std::vector<std::string> choices;   ///< where the paper's text leaves a setting open
     std::vector<PaperStatement> statements;
     Json values = Json::object();  ///< the numbers behind the statements
@@ -64,6 +64,8 @@ struct Paper {
 std::span<const Paper> papers();
 
 /// The rows of papers(), each made in the paper's own file.
+Paper mertens2003Paper();
+Paper chang2007Paper();
 Paper frisvad2014Paper();
 Paper freude2014Paper();
 

@@ -3,7 +3,7 @@
 namespace searchlight {
 
 std::span<const Paper> papers() {
-    static const std::vector<Paper> table{frisvad2014Paper(), freude2014Paper()};
+    static const std::vector<Paper> table{mertens2003Paper(), chang2007Paper(), frisvad2014Paper(), freude2014Paper()};
     return table;
 }
 
