@@ -2,7 +2,8 @@
 //
 // Each collision tallies the flux that leaves on either side without another collision or a reflection, along ways out
 // that 16 lanes share and their opposites. A walk that then leaves just so was counted; one that was reflected on its
-// way, or comes from a layer that does not foresee, is tallied where it leaves. At the outer surfaces the reflected
+// way, or comes from a layer that does not foresee, is tallied where it leaves. Of a pencil at normal incidence the
+// straight ways of order 1 are known and none is tallied (slab_single.h). At the outer surfaces the reflected
 // part goes on, at interfaces between layers a walk is reflected or passes.
 //
 // As in slab_walk.cpp a step ends at the next collision or interface, depths are counted from the top of the layer, and
@@ -192,7 +193,9 @@ private:
         const hn::Mask<Int> scatters_i = hn::Eq(pack.flight, hn::Set(di, collides));
         const FloatM scatters = hn::RebindMask(d, scatters_i);
         const IntV after = of(after_, pack.layer);
-        const FloatM foresees = hn::And(scatters, hn::RebindMask(d, hn::Eq(after, hn::Set(di, foreseen))));
+        hn::Mask<Int> foresees_i = hn::And(scatters_i, hn::Eq(after, hn::Set(di, foreseen)));
+        if (plan_.single) foresees_i = hn::And(foresees_i, hn::Ne(pack.order, hn::Set(di, 1)));
+        const FloatM foresees = hn::RebindMask(d, foresees_i);
         if (!hn::AllFalse(d, foresees)) {
             foresee<up>(pack, foresees, pack.z, at);
             if (has_below_) foresee<down>(pack, foresees, hn::Sub(of(thickness_, pack.layer), pack.z), at);

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "transport/slab/slab_importance.h"
+#include "transport/slab/slab_single.h"
 #include "transport/slab/slab_tally.h"
 #include "transport/slab/slab_walk.h"
 #include "transport/walk/lane_bins.h"
@@ -13,7 +15,7 @@
 
 namespace searchlight {
 
-/// What one chunk of these walks found, in sums over walks.
+/// What one chunk of these walks found, in sums over walks; without what SlabBestPlan::single holds.
 struct SlabBestSums {
     std::vector<double> single, multiple;  ///< reflected, per radial slot
     std::vector<double> transmitted;       ///< per radial slot
@@ -35,6 +37,7 @@ struct SlabBestPlan {
     const SlabLayout& layout;
     LaneBins bins;
     SlabImportance importance;
+    std::optional<SlabSingle> single;  ///< of a pencil at normal incidence; otherwise walks tally order 1, too
     std::vector<char> foresees;  ///< per layer: its collisions tally expected escapes; otherwise what leaves the slab
 
     bool absorbs = false;

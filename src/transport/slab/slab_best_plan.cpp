@@ -24,16 +24,24 @@ constexpr double kPartBeside = 0.5;
 
 double sumOf(const std::vector<double>& list) { return std::accumulate(list.begin(), list.end(), 0.0); }
 
-// Adds what the walks that foresee found to the slots of a layout.
-void add(const SlabBestSums& found, const SlabLayout& layout, std::vector<double>& flux) {
-    const auto at = [&](SlabLayout::Run run, std::size_t i = 0) -> double& { return flux[layout.first(run) + i]; };
+// Adds what is known and what the walks that foresee found to the slots of the layout.
+void add(const SlabBestPlan& plan, SlabBestSums found, double walks, std::vector<double>& flux) {
+    if (plan.single) {
+        for (std::size_t row = 0; row < plan.layout.rows(); ++row) {
+            found.single[row] += walks * plan.single->reflected[row];
+            found.transmitted[row] += walks * plan.single->transmitted[row];
+        }
+        found.R_unscattered = walks * plan.single->R_unscattered;
+        found.T_unscattered = walks * plan.single->T_unscattered;
+    }
+    const auto at = [&](SlabLayout::Run run, std::size_t i = 0) -> double& { return flux[plan.layout.first(run) + i]; };
     at(SlabLayout::R_single) += sumOf(found.single);
     at(SlabLayout::R_multiple) += sumOf(found.multiple);
     at(SlabLayout::R_scattered) += sumOf(found.single) + sumOf(found.multiple);
     at(SlabLayout::T_scattered) += sumOf(found.transmitted);
     at(SlabLayout::R_unscattered) += found.R_unscattered;
     at(SlabLayout::T_unscattered) += found.T_unscattered;
-    for (std::size_t row = 0; row < layout.rows(); ++row) {
+    for (std::size_t row = 0; row < plan.layout.rows(); ++row) {
         at(SlabLayout::R_r_single, row) += found.single[row];
         at(SlabLayout::R_r_multiple, row) += found.multiple[row];
         at(SlabLayout::R_r, row) += found.single[row] + found.multiple[row];
@@ -55,6 +63,7 @@ SlabBestPlan::SlabBestPlan(const SlabWalk& slab, std::span<const double> edges, 
         foresees.push_back(layer.g <= kMostForesight);
         absorbs |= layer.absorbed > 0;
     }
+    if (slab.sin_beam == 0 && slab.shape.kind == BeamShape::pencil) single = slabSingle(slab, edges, foresees);
 
     BatchRatios best(layout.slots());
     std::uint64_t steps = 0, analogue_steps = 0;
@@ -62,7 +71,7 @@ SlabBestPlan::SlabBestPlan(const SlabWalk& slab, std::span<const double> edges, 
         const SlabBestSums found = walkForeseeingSlabChunk(*this, streamOf(kPilotSeed, chunk), kPilotWalks);
         steps += found.steps;
         std::vector<double> flux(layout.slots());
-        add(found, layout, flux);
+        add(*this, found, kPilotWalks, flux);
         best.add(flux, kPilotWalks);
     }
     SlabTally tally(layout);
@@ -106,18 +115,29 @@ std::uint64_t walkSlabBestChunk(const SlabBestPlan& plan, std::uint64_t seed, st
     SlabTally beside(layout);
     const std::uint64_t collisions = walkSlabChunk(plan.walk, seed ^ kBesideStream, chunk, count, beside);
     std::vector<double> mine(layout.slots());
-    add(found, layout, mine);
+    add(plan, found, n, mine);
     std::vector<double> flux(beside.flux().begin(), beside.flux().end());
     for (double& value : flux) value *= n / static_cast<double>(count);
     const auto mix = [&](SlabLayout::Run run, double part) {
         for (std::size_t slot = layout.first(run); slot < layout.first(run) + layout.size(run); ++slot)
             flux[slot] = part * flux[slot] + (1 - part) * mine[slot];
     };
-    for (const SlabLayout::Run run : {SlabLayout::R_scattered, SlabLayout::R_single, SlabLayout::R_multiple,
-                                      SlabLayout::R_unscattered, SlabLayout::T_scattered, SlabLayout::T_unscattered})
-        mix(run, plan.part_totals);
-    for (const SlabLayout::Run run : {SlabLayout::R_r, SlabLayout::R_r_single, SlabLayout::R_r_multiple})
-        mix(run, plan.part_R_r);
+    // What analogue walks say of order 1 is of no use where nearly all of it is known, and of nothing where all is.
+    const bool mixes_single = !plan.single || std::ranges::count(plan.foresees, 0) > 0;
+    const double part_unscattered = plan.single ? 0 : plan.part_totals;
+    mix(SlabLayout::R_unscattered, part_unscattered);
+    mix(SlabLayout::T_unscattered, part_unscattered);
+    mix(SlabLayout::R_single, mixes_single ? plan.part_totals : 0);
+    mix(SlabLayout::R_multiple, plan.part_totals);
+    mix(SlabLayout::T_scattered, plan.part_totals);
+    mix(SlabLayout::R_r_single, mixes_single ? plan.part_R_r : 0);
+    mix(SlabLayout::R_r_multiple, plan.part_R_r);
+    const auto sum = [&](SlabLayout::Run whole, SlabLayout::Run one, SlabLayout::Run more) {
+        for (std::size_t i = 0; i < layout.size(whole); ++i)
+            flux[layout.first(whole) + i] = flux[layout.first(one) + i] + flux[layout.first(more) + i];
+    };
+    sum(SlabLayout::R_scattered, SlabLayout::R_single, SlabLayout::R_multiple);
+    sum(SlabLayout::R_r, SlabLayout::R_r_single, SlabLayout::R_r_multiple);
     mix(SlabLayout::T_r, plan.part_T_r);
     // What is not absorbed has left.
     if (plan.absorbs) {
