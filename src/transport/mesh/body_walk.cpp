@@ -54,6 +54,21 @@ struct Region {
         const FloatV height = hn::MulAdd(nx, dx, hn::MulAdd(ny, dy, hn::Mul(nz, dz)));
         return hn::And(hn::Lt(away(px, py, pz), square), hn::Lt(height, offset));
     }
+
+    // How far along (dx, dy, dz) from a point that it holds the region reaches.
+    HWY_INLINE FloatV reaches(FloatV px, FloatV py, FloatV pz, FloatV dx, FloatV dy, FloatV dz) const {
+        const Float d;
+        const auto inner = [](FloatV ax, FloatV ay, FloatV az, FloatV bx, FloatV by, FloatV bz) {
+            return hn::MulAdd(ax, bx, hn::MulAdd(ay, by, hn::Mul(az, bz)));
+        };
+        const FloatV fx = hn::Sub(px, x), fy = hn::Sub(py, y), fz = hn::Sub(pz, z);
+        const FloatV a = inner(dx, dy, dz, dx, dy, dz), b = inner(fx, fy, fz, dx, dy, dz);
+        const FloatV rest = hn::Max(hn::Sub(square, inner(fx, fy, fz, fx, fy, fz)), hn::Zero(d));
+        const FloatV ball = hn::Div(hn::Sub(hn::Sqrt(hn::MulAdd(a, rest, hn::Mul(b, b))), b), a);
+        const FloatV up = inner(nx, ny, nz, dx, dy, dz);
+        const FloatV plane = hn::Div(hn::Sub(offset, inner(nx, ny, nz, fx, fy, fz)), up);
+        return hn::IfThenElse(hn::Gt(up, hn::Zero(d)), hn::Min(ball, plane), ball);
+    }
 };
 
 // Of each lane the region that its walk is in; a square of 0 where none is known.
@@ -111,36 +126,19 @@ public:
     bool tabulated() const { return table_ != nullptr; }
 
     // Asks the memory for what at() will need.
-    HWY_INLINE void fetch(Vec3f p) const {
-        const auto cell = [&](float position, float low, std::int32_t n) {
-            return static_cast<std::int32_t>(
-                std::min(std::max((position - low) * per_cell_, 0.0f), static_cast<float>(n - 1)));
-        };
-        hwy::Prefetch(&regions_.regions[regions_.indexOf(cell(p.x, regions_.origin.x, regions_.nx),
-                                                         cell(p.y, regions_.origin.y, regions_.ny),
-                                                         cell(p.z, regions_.origin.z, regions_.nz))]);
+    HWY_INLINE void fetch(FloatV px, FloatV py, FloatV pz, std::size_t count) const {
+        const Int di;
+        HWY_ALIGN std::int32_t places[16];
+        hn::Store(placeOf(cellsOf(px, py, pz)), di, places);
+        for (std::size_t i = 0; i < count; ++i) hwy::Prefetch(table_ + places[i]);
     }
 
     // Of the cell that a point is in; of one beyond the grid a region that does not hold it.
     HWY_INLINE Region at(FloatV px, FloatV py, FloatV pz) const {
         const Float d;
         const Int di;
-        const auto cell = [&](FloatV position, float low, std::int32_t n) {
-            const FloatV place = hn::Mul(hn::Sub(position, hn::Set(d, low)), hn::Set(d, per_cell_));
-            const FloatV last = hn::Set(d, static_cast<float>(n - 1));
-            return hn::ConvertTo(di, hn::Min(hn::Max(place, hn::Zero(d)), last));
-        };
-        const IntV x = cell(px, regions_.origin.x, regions_.nx), y = cell(py, regions_.origin.y, regions_.ny),
-                   z = cell(pz, regions_.origin.z, regions_.nz);
-        const auto brick = [&](IntV of, std::int32_t n, IntV rest) {
-            return hn::Add(hn::Mul(rest, hn::Set(di, n >> 3)), hn::ShiftRight<3>(of));
-        };
-        const IntV seven = hn::Set(di, 7);
-        const IntV within =
-            hn::Or(hn::And(x, seven), hn::Or(hn::ShiftLeft<3>(hn::And(y, seven)), hn::ShiftLeft<6>(hn::And(z, seven))));
-        const IntV bricks = brick(x, regions_.nx, brick(y, regions_.ny, hn::ShiftRight<3>(z)));
-        static_assert(sizeof(SafeRegion) == 2 * sizeof(std::int32_t));
-        const IntV first = hn::ShiftLeft<1>(hn::Or(hn::ShiftLeft<9>(bricks), within));
+        const auto [x, y, z] = cellsOf(px, py, pz);
+        const IntV first = placeOf({x, y, z});
         const IntV normal = hn::GatherIndex(di, table_, first), lengths = hn::GatherIndex(di, table_ + 1, first);
         const auto middle = [&](IntV of, float low) {
             const FloatV place = hn::Add(hn::ConvertTo(d, of), hn::Set(d, 0.5f));
@@ -159,6 +157,35 @@ public:
     }
 
 private:
+    struct Cells {
+        IntV x, y, z;
+    };
+
+    HWY_INLINE Cells cellsOf(FloatV px, FloatV py, FloatV pz) const {
+        const Float d;
+        const auto cell = [&](FloatV position, float low, std::int32_t n) {
+            const FloatV place = hn::Mul(hn::Sub(position, hn::Set(d, low)), hn::Set(d, per_cell_));
+            const FloatV last = hn::Set(d, static_cast<float>(n - 1));
+            return hn::ConvertTo(Int(), hn::Min(hn::Max(place, hn::Zero(d)), last));
+        };
+        return {cell(px, regions_.origin.x, regions_.nx), cell(py, regions_.origin.y, regions_.ny),
+                cell(pz, regions_.origin.z, regions_.nz)};
+    }
+
+    // Of the cells' regions in the table.
+    HWY_INLINE IntV placeOf(const Cells& cells) const {
+        const Int di;
+        const auto brick = [&](IntV of, std::int32_t n, IntV rest) {
+            return hn::Add(hn::Mul(rest, hn::Set(di, n >> 3)), hn::ShiftRight<3>(of));
+        };
+        const IntV seven = hn::Set(di, 7);
+        const IntV within = hn::Or(hn::And(cells.x, seven), hn::Or(hn::ShiftLeft<3>(hn::And(cells.y, seven)),
+                                                                   hn::ShiftLeft<6>(hn::And(cells.z, seven))));
+        const IntV bricks = brick(cells.x, regions_.nx, brick(cells.y, regions_.ny, hn::ShiftRight<3>(cells.z)));
+        static_assert(sizeof(SafeRegion) == 2 * sizeof(std::int32_t));
+        return hn::ShiftLeft<1>(hn::Or(hn::ShiftLeft<9>(bricks), within));
+    }
+
     const SafeRegions& regions_;
     const std::int32_t* table_;
     float per_cell_, step_, height_step_;
@@ -272,14 +299,27 @@ private:
         return false;
     }
 
+    // The lanes whose flights are uncleared; the last of them fills its vector.
+    struct Uncleared {
+        HWY_ALIGN std::int32_t lanes[kLanes];
+        std::size_t count = 0;
+
+        explicit Uncleared(std::uint64_t bits) {
+            for (; bits != 0; bits &= bits - 1) lanes[count++] = std::countr_zero(bits);
+            while (count % hn::Lanes(Float()) != 0) lanes[count] = lanes[count - 1], ++count;
+        }
+    };
+
     // Asks the memory for the regions that lookUp() will read.
     HWY_INLINE void fetch(const Group& group) {
         if constexpr (Regions::kLooksUp) {
-            const Lanes &before = group.lanes[now_], &after = group.lanes[now_ ^ 1];
-            for (std::uint64_t rest = group.uncleared; rest != 0; rest &= rest - 1) {
-                const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
-                regions_.fetch({after.x[lane], after.y[lane], after.z[lane]});
-                regions_.fetch({before.x[lane], before.y[lane], before.z[lane]});
+            const Float d;
+            const Uncleared uncleared(group.uncleared);
+            for (std::size_t i = 0; i < uncleared.count; i += hn::Lanes(d)) {
+                const IntV at = hn::Load(Int(), uncleared.lanes + i);
+                for (const Lanes* lanes : {&group.lanes[now_ ^ 1], &group.lanes[now_]})
+                    regions_.fetch(hn::GatherIndex(d, lanes->x, at), hn::GatherIndex(d, lanes->y, at),
+                                   hn::GatherIndex(d, lanes->z, at), hn::Lanes(d));
             }
         }
     }
@@ -296,31 +336,33 @@ private:
             const Float d;
             const Int di;
             const std::size_t width = hn::Lanes(d);
-            HWY_ALIGN std::int32_t list[kLanes];
-            std::size_t count = 0;
-            for (std::uint64_t rest = group.uncleared; rest != 0; rest &= rest - 1)
-                list[count++] = std::countr_zero(rest);
-            while (count % width != 0) list[count] = list[count - 1], ++count;
+            const Uncleared uncleared(group.uncleared);
             const Lanes &before = from(group), &after = to(group);
-            for (std::size_t i = 0; i < count; i += width) {
-                const IntV at = hn::Load(di, list + i);
+            for (std::size_t i = 0; i < uncleared.count; i += width) {
+                const IntV at = hn::Load(di, uncleared.lanes + i);
                 const auto take = [&](const float* of) { return hn::GatherIndex(d, of, at); };
                 const FloatV px = take(before.x), py = take(before.y), pz = take(before.z);
                 const FloatV qx = take(after.x), qy = take(after.y), qz = take(after.z);
                 // Preferably the region of where the flight ends: the next one begins there.
                 const Region end = regions_.at(qx, qy, qz), begin = regions_.at(px, py, pz);
                 const FloatM useful = end.holds(qx, qy, qz), by_end = hn::And(useful, end.holds(px, py, pz));
-                const FloatM by_begin = hn::And(begin.holds(qx, qy, qz), begin.holds(px, py, pz));
+                const FloatM known = begin.holds(px, py, pz), by_begin = hn::And(known, begin.holds(qx, qy, qz));
+                // Two convex regions that meet on the flight hold all of it. What rounding does to it is far below what
+                // regions were shrunk by.
+                const FloatV dx = hn::Sub(qx, px), dy = hn::Sub(qy, py), dz = hn::Sub(qz, pz);
+                const FloatV reached = hn::Add(begin.reaches(px, py, pz, dx, dy, dz),
+                                               end.reaches(qx, qy, qz, hn::Neg(dx), hn::Neg(dy), hn::Neg(dz)));
+                const FloatM by_both = hn::And(hn::And(known, useful), hn::Ge(reached, hn::Set(d, 1.0f)));
                 const auto choose = [&](FloatV a, FloatV b) { return hn::IfThenElse(useful, a, b); };
                 group.regions.scatter(
                     {choose(end.x, begin.x), choose(end.y, begin.y), choose(end.z, begin.z),
                      choose(end.square, hn::IfThenElseZero(by_begin, begin.square)), choose(end.nx, begin.nx),
                      choose(end.ny, begin.ny), choose(end.nz, begin.nz), choose(end.offset, begin.offset)},
                     at, hn::Set(d, leastStep()));
-                std::uint64_t cleared = bitsOf(hn::Or(by_end, by_begin));
+                std::uint64_t cleared = bitsOf(hn::Or(by_both, hn::Or(by_end, by_begin)));
                 for (; cleared != 0; cleared &= cleared - 1)
                     group.uncleared &=
-                        ~(std::uint64_t{1} << list[i + static_cast<std::size_t>(std::countr_zero(cleared))]);
+                        ~(std::uint64_t{1} << uncleared.lanes[i + static_cast<std::size_t>(std::countr_zero(cleared))]);
             }
         }
     }

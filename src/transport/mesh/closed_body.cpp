@@ -1,6 +1,7 @@
 #include "transport/mesh/closed_body.h"
 
 #include <fmt/format.h>
+#include <hwy/cache_control.h>
 
 #include <algorithm>
 #include <cassert>
@@ -192,6 +193,7 @@ MeshBody::MeshBody(const Mesh& mesh, const MeshBodyOptions& options)
     const double cell = std::clamp(kCellMfp * options.shortest_mfp, longest / kMostAlong, longest / kFewestAlong);
     regions_ = options.regions ? buildSafeRegions(mesh_, cell, options.shortest_mfp, options.threads)
                                : unknownRegion(toDouble(low), toDouble(high));
+    if (options.regions) grid_ = buildTriangleGrid(mesh_, gridCell(mesh_, area, options.shortest_mfp));
     const auto end = [&](float origin, std::int32_t cells) {
         return origin + static_cast<float>(cells) * regions_.cell_mm;
     };
@@ -257,11 +259,18 @@ std::optional<RayHit> MeshBody::leaving(const Ray& flight, const RayHit& entered
 
 void MeshBody::cross(std::span<const Ray> flights, std::span<Crossing> crossings) const {
     assert(flights.size() == crossings.size());
-    constexpr std::size_t most = 32;
+    constexpr std::size_t most = 64;
     RayHit hits[most];
     for (std::size_t first = 0; first < flights.size(); first += most) {
         const std::size_t count = std::min(most, flights.size() - first);
-        rays_.intersect(flights.subspan(first, count), {hits, count}, false);
+        const std::span<const Ray> some = flights.subspan(first, count);
+        if (!grid_.blocks.empty() && std::ranges::all_of(some, [&](const Ray& f) { return grid_.holds(f); })) {
+            grid_.intersect(some, {hits, count});
+            for (const RayHit& hit : std::span(hits, count))
+                if (std::isfinite(hit.t)) hwy::Prefetch(&mesh_.triangles[hit.triangle]);
+        } else {
+            rays_.intersect(some, {hits, count}, false);
+        }
         for (std::size_t i = 0; i < count; ++i)
             crossings[first + i].what = cross(flights[first + i], hits[i], crossings[first + i]);
     }

@@ -11,6 +11,7 @@
 #include "scene/mesh.h"
 #include "transport/mesh/safe_regions.h"
 #include "transport/mesh/surface_cells.h"
+#include "transport/mesh/triangle_grid.h"
 
 namespace searchlight {
 
@@ -66,7 +67,7 @@ private:
 struct MeshBodyOptions {
     double cell_area_mm2 = 0;  ///< of the receivers; 0: one per triangle
     double shortest_mfp = 1;   ///< mm, of the walks to come: chooses the grid of safe regions
-    bool regions = true;       ///< false: a ray for each flight; slow, and what walks without are tested against
+    bool regions = true;       ///< false: a ray of Embree for each flight; slow, and what walks are tested against
     int threads = 0;
 };
 
@@ -103,6 +104,7 @@ private:
     RayScene rays_;
     SurfaceCells cells_;
     SafeRegions regions_;
+    TriangleGrid grid_;                  ///< empty without regions
     std::vector<double> area_to_;        ///< of the triangles up to each
     std::vector<std::ptrdiff_t> first_;  ///< of the triangles that end beyond each of as many equal parts of the area
     Vec3f low_, high_;                   ///< of a box around the mesh and a little more: no walk inside is beyond

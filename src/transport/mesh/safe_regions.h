@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/large_pages.h"
 #include "scene/mesh.h"
 #include "transport/mesh/distance_bounds.h"
 
@@ -27,7 +28,8 @@ struct SafeRegions {
     Vec3f origin;  ///< lowest corner of the grid, mm
     float cell_mm = 0;
     std::int32_t nx = 0, ny = 0, nz = 0;  ///< cells; a multiple of 8
-    std::vector<SafeRegion> regions;      ///< in bricks of 8 x 8 x 8 cells, which lie in one page; x runs fastest
+    std::vector<SafeRegion, LargePages<SafeRegion>>
+        regions;  ///< in bricks of 8 x 8 x 8 cells, which lie in one page; x runs fastest
 
     std::size_t indexOf(std::int32_t x, std::int32_t y, std::int32_t z) const;
     /// Whether a flight between two points surely stays inside the mesh. False outside of the grid.

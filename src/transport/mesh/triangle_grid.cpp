@@ -1,0 +1,157 @@
+#include "transport/mesh/triangle_grid.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace searchlight {
+
+namespace {
+
+// Of a cell, that triangles are looked for around it: positions in the grid are rounded to 1e-5 of a cell.
+constexpr double kMargin = 1e-3;
+constexpr double kMostAlong = 256;
+
+// Which cells a triangle touches: planes and edges of [SchwarzSeidel2010], in units of cells.
+class Touch {
+public:
+    explicit Touch(const std::array<Vec3, 3>& corners) {
+        const auto& [a, b, c] = corners;
+        const Vec3 n = cross(b - a, c - a);
+        normal_ = n;
+        plane_ = dot(n, a);
+        reach_ = (0.5 + kMargin) * (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
+        const auto project = [&](Projection along, double height) {
+            const double sign = height >= 0 ? 1 : -1;
+            for (std::size_t i = 0; i < 3; ++i) {
+                const auto [p, q] = along(corners[i]);
+                const auto [to_p, to_q] = along(corners[(i + 1) % 3]);
+                // Inward in the projection.
+                const double np = sign * (q - to_q), nq = sign * (to_p - p);
+                edges_.push_back({along, np, nq, np * p + nq * q - (0.5 + kMargin) * (std::abs(np) + std::abs(nq))});
+            }
+        };
+        project([](const Vec3& v) { return std::pair(v.y, v.z); }, n.x);
+        project([](const Vec3& v) { return std::pair(v.z, v.x); }, n.y);
+        project([](const Vec3& v) { return std::pair(v.x, v.y); }, n.z);
+    }
+
+    bool cellAt(Vec3 middle) const {
+        if (std::abs(dot(normal_, middle) - plane_) > reach_) return false;
+        return std::ranges::all_of(edges_, [&](const Edge& edge) {
+            const auto [p, q] = edge.along(middle);
+            return edge.p * p + edge.q * q >= edge.least;
+        });
+    }
+
+private:
+    using Projection = std::pair<double, double> (*)(const Vec3&);
+    struct Edge {
+        Projection along;
+        double p, q, least;
+    };
+    Vec3 normal_;
+    double plane_, reach_;
+    std::vector<Edge> edges_;
+};
+
+}  // namespace
+
+bool TriangleGrid::holds(const Ray& flight) const {
+    const auto within = [this](float from, float along, float low, std::int32_t n) {
+        const float high = low + static_cast<float>(n) * cell_mm, end = from + along;
+        return from > low && from < high && end > low && end < high;
+    };
+    const Vec3f d{flight.t_max * flight.direction.x, flight.t_max * flight.direction.y,
+                  flight.t_max * flight.direction.z};
+    return within(flight.origin.x, d.x, origin.x, nx) && within(flight.origin.y, d.y, origin.y, ny) &&
+           within(flight.origin.z, d.z, origin.z, nz);
+}
+
+double gridCell(const Mesh& mesh, double area_mm2, double mfp_mm) {
+    // Measured on scanned meshes (docs/benchmarks.md): finer cells hold copies of more triangles than the cache does.
+    const double triangle = std::sqrt(area_mm2 / static_cast<double>(mesh.triangles.size()));
+    return std::max(1.7 * triangle, 0.5 * mfp_mm);
+}
+
+TriangleGrid buildTriangleGrid(const Mesh& mesh, double cell_mm) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    Vec3 low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
+    for (const auto& triangle : mesh.triangles)
+        for (const std::uint32_t v : triangle) {
+            const Vec3 p = toDouble(mesh.positions[v]);
+            low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+            high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+        }
+    const Vec3 extent = high - low;
+    TriangleGrid grid;
+    grid.cell_mm = static_cast<float>(std::max(cell_mm, std::max({extent.x, extent.y, extent.z}) / kMostAlong));
+    const double cell = static_cast<double>(grid.cell_mm);
+    // A cell and a half around: flights that end beyond it have left.
+    grid.origin = toFloat(low - 1.5 * cell * Vec3{1, 1, 1});
+    const auto along = [cell](double length) { return (static_cast<std::int32_t>(length / cell + 3) / 4 + 1) * 4; };
+    grid.nx = along(extent.x), grid.ny = along(extent.y), grid.nz = along(extent.z);
+    const Vec3 origin = toDouble(grid.origin);
+
+    // Cells of a brick follow one another.
+    const auto indexOf = [&grid](std::int32_t x, std::int32_t y, std::int32_t z) {
+        const auto brick = (static_cast<std::size_t>(z >> 2) * (grid.ny >> 2) + (y >> 2)) * (grid.nx >> 2) + (x >> 2);
+        return brick << 6 | static_cast<std::size_t>((z & 3) << 4 | (y & 3) << 2 | (x & 3));
+    };
+    const auto forEachCell = [&](std::size_t t, const auto& visit) {
+        std::array<Vec3, 3> corners;
+        Vec3 least{infinity, infinity, infinity}, most{-infinity, -infinity, -infinity};
+        for (int i = 0; i < 3; ++i) {
+            const Vec3 p = (1 / cell) * (toDouble(mesh.positions[mesh.triangles[t][i]]) - origin);
+            corners[i] = p;
+            least = {std::min(least.x, p.x), std::min(least.y, p.y), std::min(least.z, p.z)};
+            most = {std::max(most.x, p.x), std::max(most.y, p.y), std::max(most.z, p.z)};
+        }
+        const Touch touch(corners);
+        const auto cellOf = [](double x, std::int32_t n) {
+            return std::clamp(static_cast<std::int32_t>(std::floor(x)), 0, n - 1);
+        };
+        for (std::int32_t z = cellOf(least.z - kMargin, grid.nz); z <= cellOf(most.z + kMargin, grid.nz); ++z)
+            for (std::int32_t y = cellOf(least.y - kMargin, grid.ny); y <= cellOf(most.y + kMargin, grid.ny); ++y)
+                for (std::int32_t x = cellOf(least.x - kMargin, grid.nx); x <= cellOf(most.x + kMargin, grid.nx); ++x)
+                    if (touch.cellAt({x + 0.5, y + 0.5, z + 0.5})) visit(indexOf(x, y, z));
+    };
+    std::vector<std::uint32_t> count(static_cast<std::size_t>(grid.nx) * grid.ny * grid.nz);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) forEachCell(t, [&](std::size_t at) { ++count[at]; });
+    grid.bricks.resize(count.size() / 64);
+    std::size_t blocks = 0;
+    for (std::size_t at = 0; at < count.size(); ++at) {
+        TriangleGrid::Brick& brick = grid.bricks[at / 64];
+        if (at % 64 == 0) brick.begin = static_cast<std::uint32_t>(grid.first.size());
+        if (count[at] == 0) continue;
+        brick.full |= std::uint64_t{1} << at % 64;
+        grid.first.push_back(static_cast<std::uint32_t>(blocks));
+        blocks += (count[at] + TriangleGrid::kBlock - 1) / TriangleGrid::kBlock;
+    }
+    grid.blocks.resize(blocks);
+    std::vector<std::uint32_t> placed(count.size());
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+        forEachCell(t, [&](std::size_t at) {
+            const std::uint32_t place = placed[at]++;
+            const bool last = placed[at] == count[at];
+            TriangleGrid::Block& block =
+                grid.blocks[grid.first[grid.bricks[at / 64].placeOf(at % 64)] + place / TriangleGrid::kBlock];
+            // The last triangle fills the rest of its block: met twice, it is still one hit.
+            const std::size_t begin = place % TriangleGrid::kBlock, end = last ? TriangleGrid::kBlock : begin + 1;
+            for (std::size_t i = begin; i < end; ++i) {
+                block.triangles[i] = static_cast<std::uint32_t>(t);
+                for (std::size_t corner = 0; corner < 3; ++corner) {
+                    const Vec3f p = mesh.positions[mesh.triangles[t][corner]];
+                    block.corners[3 * corner][i] = p.x;
+                    block.corners[3 * corner + 1][i] = p.y;
+                    block.corners[3 * corner + 2][i] = p.z;
+                }
+            }
+            if (last) block.triangles[0] |= TriangleGrid::kLast;
+        });
+    return grid;
+}
+
+}  // namespace searchlight

@@ -1,0 +1,60 @@
+// Where short flights meet a closed mesh. A hierarchy is descended from its root for each ray, however short; a flight
+// of a few mean free paths passes few cells of a grid, and begins at the one that it is in.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/large_pages.h"
+#include "geometry/rays.h"
+#include "scene/mesh.h"
+
+namespace searchlight {
+
+/// The triangles of a mesh by the cells that they touch.
+struct TriangleGrid {
+    static constexpr std::size_t kBlock = 8;
+    static constexpr std::uint32_t kLast = 0x8000'0000;
+
+    /// Eight triangles of a cell, with their own corners: a test reads five cache lines side by side.
+    struct alignas(64) Block {
+        float corners[9][kBlock];         ///< x, y, z of the first corner, of the second, of the third; mm
+        std::uint32_t triangles[kBlock];  ///< kLast is set in the first when the cell has no further block
+    };
+
+    /// 4 x 4 x 4 cells: most of them are empty, and walks ask for cells all over the mesh.
+    struct alignas(16) Brick {
+        std::uint64_t full = 0;   ///< a bit per cell that holds triangles; x runs fastest
+        std::uint32_t begin = 0;  ///< of those: the first one's place in `first`
+
+        /// The place in `first` of a cell that holds triangles.
+        std::size_t placeOf(unsigned cell) const {
+            return begin + static_cast<std::size_t>(std::popcount(full & ((std::uint64_t{1} << cell) - 1)));
+        }
+    };
+
+    Vec3f origin;  ///< lowest corner, mm
+    float cell_mm = 0;
+    std::int32_t nx = 0, ny = 0, nz = 0;                          ///< cells; a multiple of 4
+    std::vector<Brick, LargePages<Brick>> bricks;                 ///< x runs fastest
+    std::vector<std::uint32_t, LargePages<std::uint32_t>> first;  ///< block of each cell that holds triangles
+    std::vector<Block, LargePages<Block>> blocks;
+
+    /// Nearest hits with t in (0, t_max]: as RayScene has them; a miss has t = infinity. Both ends
+    /// of each flight lie inside the grid, and t_min is not read. Watertight at shared edges as RayScene is. Targets
+    /// with FMA agree bit for bit.
+    void intersect(std::span<const Ray> flights, std::span<RayHit> hits) const;
+
+    /// Whether both ends of a flight lie inside.
+    bool holds(const Ray& flight) const;
+};
+
+/// Cells of that side, or of the longest extent's 256th part.
+TriangleGrid buildTriangleGrid(const Mesh& mesh, double cell_mm);
+
+/// A side with which flights of that mean length pass few cells, and these hold few triangles; mm.
+double gridCell(const Mesh& mesh, double area_mm2, double mfp_mm);
+
+}  // namespace searchlight
