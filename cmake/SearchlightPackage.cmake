@@ -12,9 +12,27 @@ install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/THIRD_PARTY.md
 install(FILES ${PROJECT_SOURCE_DIR}/cmake/debian_copyright
   DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/searchlight RENAME copyright)
 
+# Manual pages, from --help: made when something is installed, so that no build waits for them.
+set(man_pages ${PROJECT_BINARY_DIR}/man)
+foreach(program searchlight searchlight-gui)
+  if(TARGET ${program})
+    set(summary "laboratory for BSSRDFs: subsurface scattering models")
+    if(program STREQUAL searchlight-gui)
+      set(summary "the window of Searchlight")
+    endif()
+    # An offscreen window asks for no display.
+    install(CODE "execute_process(COMMAND ${CMAKE_COMMAND} -E env QT_QPA_PLATFORM=offscreen ${CMAKE_COMMAND}
+      \"-DPROGRAM=$<TARGET_FILE:${program}>\" \"-DSUMMARY=${summary}\" -DVERSION=${PROJECT_VERSION}
+      \"-DFOLDER=${man_pages}\" -P \"${PROJECT_SOURCE_DIR}/cmake/ManPages.cmake\" COMMAND_ERROR_IS_FATAL ANY)")
+    install(FILES ${man_pages}/${program}.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+  endif()
+endforeach()
+
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME searchlight)
-set(CPACK_PACKAGE_CONTACT "Searchlight contributors")
+# Debian wants an address: whoever makes a package for others gives theirs, -DSEARCHLIGHT_PACKAGE_CONTACT="N <a@b>".
+set(SEARCHLIGHT_PACKAGE_CONTACT "Searchlight contributors" CACHE STRING "maintainer of the Debian package")
+set(CPACK_PACKAGE_CONTACT ${SEARCHLIGHT_PACKAGE_CONTACT})
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "laboratory for BSSRDFs: subsurface scattering models")
 set(CPACK_PACKAGE_DESCRIPTION "Develops, displays, compares and validates models of light in translucent
 things: any model with any technique, on one scene, beside a Monte Carlo

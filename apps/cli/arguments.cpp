@@ -11,6 +11,8 @@
 #include "base/text.h"
 #include "base/version.h"
 #include "job/command.h"
+#include "job/engine.h"
+#include "model/model.h"
 #include "scene_flags.h"
 
 namespace searchlight {
@@ -63,6 +65,7 @@ constexpr MaterialFlag material_flags[] = {
     {"eta", "refractive index, inside over outside (default 1.3)"},
     {"Rdr", "total diffuse reflectance, inverted by --model or the dipole, with --ld"},
     {"ld", "diffuse mean free path [mm]"},
+    {"inverted_by", "what inverts Rdr and ld, as better_dipole:Moments=exact (default --model, or the dipole)"},
     {"material_scale", "lengths of the medium times this, coefficients divided by it (default 1)"},
 };
 
@@ -122,8 +125,11 @@ void declare(CLI::App& root, Typed& typed, Arguments& arguments) {
         }
     }
     if (command.uses_material || command.uses_scene)
-        for (const MaterialFlag& flag : material_flags)
+        for (const MaterialFlag& flag : material_flags) {
+            // A scene has one model, and --model says which.
+            if (command.uses_scene && flag.name == std::string_view("inverted_by")) continue;
             addOption(app, flagOf(flag.name), typed.material[flag.name], flag.doc, "Material");
+        }
     if (command.uses_material && !command.uses_scene)
         app.add_option("--scene", typed.scene, "a scene file, whose material is used")
             ->type_name("")
@@ -209,6 +215,22 @@ std::string sceneInPlaceOfObject(Typed& typed) {
     return path;
 }
 
+// Rdr and ld are a statement about one model: the one that is named, or that the command is about, if it is about one.
+void applyInvertingModel(const Typed& typed, Job& job) {
+    const MaterialFlags flags(typed);
+    if (!job.scene.material.inverted()) {
+        if (flags.has("inverted_by")) throw usageError("--inverted-by belongs to --Rdr and --ld", "leave it out");
+        return;
+    }
+    if (flags.has("inverted_by")) {
+        const std::vector<std::string_view> parts = split(flags.text("inverted_by"), ':');
+        job.scene.model.id = parts.front();
+        job.scene.model.parameters = parseSettings(loadModel(parts.front()), {parts.begin() + 1, parts.end()});
+    } else if (const auto model = job.options.find("model"); model != job.options.end()) {
+        job.scene.model.id = std::get<std::string>(model->second);
+    }
+}
+
 Job jobOf(Typed& typed) {
     Job job;
     job.command = typed.command->name;
@@ -229,9 +251,7 @@ Job jobOf(Typed& typed) {
         const bool stands_alone = param.type == ParamType::toggle && values.back().empty();
         job.options[param.name] = stands_alone ? true : parseValue(param, joins ? join(values, ",") : values.back());
     }
-    // Rdr and ld are a statement about one model: the one that the command is about, if it is about one.
-    if (const auto model = job.options.find("model"); model != job.options.end() && job.scene.material.inverted())
-        job.scene.model.id = std::get<std::string>(model->second);
+    if (typed.command->uses_material || typed.command->uses_scene) applyInvertingModel(typed, job);
     if (!typed.seed.empty()) {
         const std::optional<double> seed = parseNumber(typed.seed);
         if (!seed || *seed < 0 || *seed != std::floor(*seed) || *seed > 9007199254740992.0)

@@ -39,6 +39,21 @@ TEST_F(Program, TakesAnObjectThatIsCalledAsACommandForAnObject) {
     EXPECT_EQ(job.at("options").at("walks"), 12345) << output.out;
 }
 
+// Curves of several models are on one medium: whoever gives Rdr and ld may say which model turns them into one.
+TEST_F(Program, RdrAndLdAreInvertedByTheModelThatIsNamed) {
+    const std::string plot = "plot pencil --models dipole --Rdr 0.4 --ld 1 --print-job ";
+    EXPECT_EQ(json::parse(run(plot).out).at("scene").at("model").at("id"), "dipole");
+    const Output named = run(plot + "--inverted-by better_dipole:Moments=exact");
+    EXPECT_EQ(named.exit_code, 0) << named.err;
+    const json model = json::parse(named.out).at("scene").at("model");
+    EXPECT_EQ(model.at("id"), "better_dipole");
+    EXPECT_EQ(model.at("parameters").at("Moments"), "exact");
+    EXPECT_EQ(run(plot + "--inverted-by no_such_model").exit_code, 2);
+    const Output useless = run("plot pencil --material skin1 --inverted-by dipole");
+    EXPECT_EQ(useless.exit_code, 2);
+    EXPECT_THAT(useless.err, testing::HasSubstr("belongs to --Rdr and --ld"));
+}
+
 TEST_F(Program, HelpShowsEveryCommandsExampleAndSucceeds) {
     for (const char* command : {"models", "materials", "profile", "invert", "reference halfspace", "plot pencil",
                                 "plot error", "plot albedo", "check", "report", "doctor", "run"}) {

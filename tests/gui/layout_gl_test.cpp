@@ -106,12 +106,17 @@ TEST_F(LayoutTest, TheCursorReadsEachMapOfTheSurface) {
     auto* plot = find<FigureView>(window.get(), "plot.figure");
     ASSERT_TRUE(waitUntil([&] { return plot->figure().panels.size() == 4; }, 60'000));
     QStringList read;
-    for (int x = 10; x < plot->width() && read.isEmpty(); x += 10) {
-        QMouseEvent move(QEvent::MouseMove, QPointF(x, plot->height() / 2), QPointF(), Qt::NoButton, Qt::NoButton,
-                         Qt::NoModifier);
-        QApplication::sendEvent(plot, &move);
-        read = plot->readOut();
-    }
+    const auto reads = [&] {
+        for (int x = 10; x < plot->width() && read.isEmpty(); x += 10) {
+            QMouseEvent move(QEvent::MouseMove, QPointF(x, plot->height() / 2), QPointF(), Qt::NoButton, Qt::NoButton,
+                             Qt::NoModifier);
+            QApplication::sendEvent(plot, &move);
+            read = plot->readOut();
+        }
+        return !read.isEmpty();
+    };
+    // Maps are painted beside the window, some time after their figure is there.
+    ASSERT_TRUE(waitUntil(reads, 60'000));
     ASSERT_EQ(read.size(), 5) << "the place and four maps";
     EXPECT_TRUE(read[0].contains("mm"));
     for (int i = 1; i < 5; ++i) {
@@ -132,6 +137,8 @@ TEST_F(LayoutTest, CommandsOfDocksNameScaleAndParameters) {
     for (const QString& line : {kernel, plot}) {
         EXPECT_TRUE(line.contains("--material-scale 2")) << line.toStdString();
         EXPECT_TRUE(line.contains("--Rdr 0.6 --ld 1")) << line.toStdString();
+        // The window inverts by the active model, the command would by the dipole.
+        EXPECT_TRUE(line.contains("--inverted-by better_dipole:Moments=exact")) << line.toStdString();
     }
     EXPECT_TRUE(kernel.contains("--set Moments=exact")) << kernel.toStdString();
     EXPECT_TRUE(plot.contains("better_dipole:Moments=exact")) << plot.toStdString();

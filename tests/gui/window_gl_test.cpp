@@ -86,7 +86,7 @@ TEST_F(MainTest, ModelsAndTheReferenceAreCompared) {
         // What the model before left is shown until the reference has walked.
         const bool walks = std::string(against) == "reference";
         ASSERT_TRUE(waitUntil(
-            [&] { return !shown().difference.isNull() && shown().difference_rms >= 0 && (shown().walks > 0) == walks; },
+            [&] { return !shown().difference.isNull() && shown().differs.rms >= 0 && (shown().walks > 0) == walks; },
             180'000))
             << against;
         EXPECT_EQ(shown().difference.size(), shown().a.size());

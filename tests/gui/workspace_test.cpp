@@ -170,7 +170,7 @@ TEST(CommandLine, StandsForTheSameScene) {
     normalise(by_flags);
     int heredocs = 0;
     for (const State& state : {defaultState(), by_flags}) {
-        std::string line = commandLine(state, "it's.png", 64, 48);
+        std::string line = commandLine(state, {.path = "it's.png", .width = 64, .height = 48, .exposure = 1.5});
         const std::size_t end = line.find('\n');
         heredocs += end != std::string::npos;
         // --print-job stands before the text behind the command, if there is one.
@@ -184,6 +184,7 @@ TEST(CommandLine, StandsForTheSameScene) {
         EXPECT_EQ(sceneJson(job.scene), sceneJson(sceneOf(state, state.active))) << line;
         EXPECT_EQ(job.output, "it's.png");
         EXPECT_EQ(std::get<std::string>(job.options.at("size")), "64x48");
+        EXPECT_EQ(std::get<std::string>(job.options.at("exposure")), "1.500") << "as bright as it is shown";
     }
     EXPECT_EQ(heredocs, 1) << "flags speak of all lights at once: two that differ need the job";
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "job/plot/curves.h"
+#include "job/plot/subject.h"
 
 namespace searchlight {
 namespace {
@@ -47,6 +48,33 @@ TEST_F(LivePlotTest, DrawsTheCurvesOfThePlotCommandInTheColoursOfTheSlots) {
     const Series& series = result.figure.series[0];
     const PencilCurve curve = modelCurve(dipole, 0, series.x, {});
     for (std::size_t i = 0; i < series.y.size(); ++i) EXPECT_EQ(series.y[i], curve.Rd[i].r);
+}
+
+// One medium for all curves and the reference, whichever model inverts it; what a slot has of its own it inverts
+// itself.
+TEST_F(LivePlotTest, RdrAndLdStandForOneMediumThatOneModelInverts) {
+    LiveRequest request = requestOf({"dipole", "better_dipole", "dipole"});
+    request.material = {.id = "", .Rdr = {0.5}, .ld = {1}};
+    request.inverted_by = {.id = "better_dipole"};
+    request.models[2].material = request.material;
+    const LivePlotResult result = plot_.draw(request, LiveDetail::fine);
+    ASSERT_EQ(result.figure.series.size(), 3u);
+    const auto mediumBy = [&](const char* inverting) {
+        Job job;
+        job.scene.material = request.material;
+        job.scene.model.id = inverting;
+        return subjectOf(job, engine_).medium;
+    };
+    const Medium shared = mediumBy("better_dipole"), own = mediumBy("dipole");
+    EXPECT_GT(std::abs(shared.sigma_a[0] - own.sigma_a[0]), 0.01 * own.sigma_a[0]) << "models do invert differently";
+    const std::pair<const char*, const Medium*> expected[] = {
+        {"dipole", &shared}, {"better_dipole", &shared}, {"dipole", &own}};
+    for (std::size_t i = 0; i < 3; ++i) {
+        LoadedModel model = engine_.load(expected[i].first, {}, "auto", *expected[i].second);
+        const Series& series = result.figure.series[i];
+        const PencilCurve curve = modelCurve(model, 0, series.x, {});
+        EXPECT_EQ(series.y[100], curve.Rd[100].r) << i;
+    }
 }
 
 TEST_F(LivePlotTest, ReferenceComesInTwoStepsAndThenFollowsSlidersWithoutWalks) {

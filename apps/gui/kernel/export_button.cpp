@@ -7,6 +7,7 @@
 
 #include "base/files.h"
 #include "gui/kernel/kernel_options.h"
+#include "gui/window/theme.h"
 #include "job/kernel/kernel_export.h"
 
 namespace searchlight::gui {
@@ -32,6 +33,10 @@ QString fileEnding(const std::string& name) {
 KernelExportButton::KernelExportButton(Desk& desk, QWidget* parent) : QToolButton(parent), desk_(desk) {
     setObjectName(QStringLiteral("kernel.export"));
     setText(tr("Export"));
+    setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+    const auto paint = [this] { setIcon(desk_.theme.icon("export")); };
+    paint();
+    connect(&desk_.theme, &Theme::changed, this, paint);
     setAccessibleName(tr("Export the kernel"));
     setPopupMode(InstantPopup);
     auto* menu = new QMenu(this);

@@ -119,7 +119,7 @@ private:
             titles_[i]->setAlignment(Qt::AlignCenter);
             titles_[i]->setFont(desk_.theme.smallFont());
             column->addWidget(titles_[i]);
-            figures_[i] = new FigureView(desk_.theme, halves_[i]);
+            figures_[i] = new FigureView(desk_, halves_[i]);
             figures_[i]->setObjectName(QLatin1String(names[i]));
             figures_[i]->setMinimumSize(100, 100);
             figures_[i]->setLegendBeside();

@@ -142,7 +142,7 @@ QString kernelCommandLine(const State& state) {
     const auto add = [&](const char* flag, const std::string& value) {
         line += QStringLiteral(" %1 %2").arg(QLatin1String(flag), QString::fromStdString(value));
     };
-    for (const std::string& flag : materialFlags(wish.material))
+    for (const std::string& flag : materialFlags(wish.material, &wish.model))
         line += QLatin1Char(' ') + QString::fromStdString(flag);
     for (const NamedMethod& method : namedMethods(wish.taps)) {
         if (method.name != wish.method) continue;

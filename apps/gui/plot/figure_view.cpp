@@ -1,5 +1,7 @@
 #include "gui/plot/figure_view.h"
 
+#include <fmt/format.h>
+
 #include <QKeyEvent>
 #include <QMouseEvent>
 #include <QPainter>
@@ -10,7 +12,6 @@
 #include "base/error.h"
 #include "draw/figure_texts.h"
 #include "draw/legend.h"
-#include "draw/panel_layout.h"
 #include "draw/plot_area.h"
 #include "draw/text_width.h"
 #include "gui/plot/figure_ink.h"
@@ -48,11 +49,14 @@ bool zoomInterval(AxisScale scale, double t, double factor, double shift, double
 
 }  // namespace
 
-FigureView::FigureView(Theme& theme, QWidget* parent) : QWidget(parent), theme_(theme) {
+FigureView::FigureView(Desk& desk, QWidget* parent) : QWidget(parent), desk_(desk), theme_(desk.theme) {
     setMouseTracking(true);
     setFocusPolicy(Qt::StrongFocus);
     setAccessibleName(tr("Searchlight plot"));
-    connect(&theme_, &Theme::changed, this, qOverload<>(&QWidget::update));
+    connect(&theme_, &Theme::changed, this, [this] {
+        requestPage();
+        update();
+    });
 }
 
 bool FigureView::isEmpty() const { return figure_.series.empty() && figure_.panels.empty() && !figure_.map; }
@@ -64,7 +68,7 @@ void FigureView::setFigure(Figure figure, const QString& empty_text) {
     if (!same(figure.x, figure_.x) || !same(figure.y, figure_.y)) zoomed_.reset();
     figure_ = std::move(figure);
     empty_text_ = empty_text;
-    panels_.reset();
+    requestPage();
     setToolTip(isSingle() ? tr("Wheel: zoom. Drag: move. Double click: all of it.") : QString());
     setCursor(cursor_);
     QString heard = QString::fromStdString(figure_.title);
@@ -141,20 +145,14 @@ void FigureView::setCursor(std::optional<QPointF> at) {
 
 // All maps at the place under the cursor in one of them.
 void FigureView::readPanels(QPointF at) {
-    if (isEmpty()) return;
-    try {
-        const Drawing& drawing = panels();
-        const PanelPlace place = panelPlace(drawing);
-        const Point on_paper{(at.x() - place.offset.x()) / place.scale, (at.y() - place.offset.y()) / place.scale};
-        for (const PanelFrame& frame : drawing.frames) {
-            if (!frame.rect.contains(on_paper)) continue;
-            const double tx = (on_paper.x - frame.rect.left) / frame.rect.width();
-            const double ty = (frame.rect.bottom - on_paper.y) / frame.rect.height();
-            read_out_ = readMaps(figure_, frame.x_min + tx * (frame.x_max - frame.x_min),
-                                 frame.y_min + ty * (frame.y_max - frame.y_min));
-        }
-    } catch (const Error&) {
-        // What cannot be laid out says so where it would stand.
+    if (isEmpty() || !page_ || page_->size != size()) return;
+    const Point on_paper{(at.x() - page_->offset.x()) / page_->scale, (at.y() - page_->offset.y()) / page_->scale};
+    for (const PanelFrame& frame : page_->frames) {
+        if (!frame.rect.contains(on_paper)) continue;
+        const double tx = (on_paper.x - frame.rect.left) / frame.rect.width();
+        const double ty = (frame.rect.bottom - on_paper.y) / frame.rect.height();
+        read_out_ = readMaps(figure_, frame.x_min + tx * (frame.x_max - frame.x_min),
+                             frame.y_min + ty * (frame.y_max - frame.y_min));
     }
 }
 
@@ -210,49 +208,38 @@ void FigureView::paintSingle(QPainter& painter) {
     paintReadOut(painter, theme_, read_out_, *cursor_, QRectF(frame.left, frame.top, frame.width(), frame.height()));
 }
 
-// The columns and the width of the page that fill this window best; below 0.7 of its size text cannot be read. The
-// caption is for paper.
-const Drawing& FigureView::panels() {
-    if (panels_ && panels_size_ == size()) return *panels_;
-    Figure figure = figure_;
-    figure.caption.clear();
-    double best = 0, best_page = 0;
-    int best_columns = 1;
-    for (int columns = 1; columns <= std::max(1, static_cast<int>(figure.panels.size())); ++columns)
-        for (const double page : {0.0, 900.0, 800.0, 700.0, 600.0, 500.0}) {
-            if (page > 0 && page < 200 * columns) continue;
-            figure.columns = columns;
-            const Drawing drawing = layoutPanels(figure, page, false);
-            const double scale = std::min(width() / drawing.width, height() / drawing.height);
-            const double score = 1e4 * std::min(scale, 0.7) + scale * drawing.width;
-            if (score <= best) continue;
-            best = score;
-            best_page = page;
-            best_columns = columns;
-        }
-    figure.columns = best_columns;
-    panels_ = layoutPanels(figure, best_page);
-    panels_->shapes.erase(panels_->shapes.begin());  // the paper
-    panels_size_ = size();
-    return *panels_;
+// The page of before is shown until the next one is made, so that maps do not flicker while a slider moves.
+void FigureView::requestPage() {
+    const bool wanted = !isEmpty() && !isSingle() && !size().isEmpty();
+    const std::string key = fmt::format("page {}", static_cast<const void*>(this));
+    if (!wanted) {
+        if (page_) desk_.tasks.cancel("pages", key);
+        page_.reset();
+        return;
+    }
+    const auto work = [this, figure = figure_, size = size(), ratio = devicePixelRatioF(),
+                       ink = figureInk(theme_)](TaskContext& context) {
+        auto page = std::make_shared<const PanelPage>(makePanelPage(figure, size, ratio, ink, context));
+        context.publish([this, page] {
+            page_ = page;
+            if (cursor_) setCursor(cursor_);
+            update();
+        });
+    };
+    desk_.tasks.start({.lane = "pages", .key = key, .receiver = this}, work);
 }
 
-FigureView::PanelPlace FigureView::panelPlace(const Drawing& drawing) const {
-    const double scale = std::min((width() - 2 * margin) / drawing.width, (height() - 2 * margin) / drawing.height);
-    return {scale, {0.5 * (width() - scale * drawing.width), 0.5 * (height() - scale * drawing.height)}};
+void FigureView::resizeEvent(QResizeEvent*) { requestPage(); }
+
+void FigureView::changeEvent(QEvent* event) {
+    if (event->type() == QEvent::ScreenChangeInternal) requestPage();
+    QWidget::changeEvent(event);
 }
 
 void FigureView::paintPanels(QPainter& painter) {
-    const Drawing& drawing = panels();
-    const PanelPlace place = panelPlace(drawing);
-    painter.save();
-    painter.translate(place.offset);
-    painter.scale(place.scale, place.scale);
-    // What is white stands on a map's own colours.
-    const InkFunction ink_of = figureInk(theme_);
-    paintShapes(painter, drawing.shapes,
-                [&](std::string_view color) { return color == "#ffffff" ? std::string(color) : ink_of(color); });
-    painter.restore();
+    if (!page_) return;
+    if (!page_->problem.empty()) throw inputError(page_->problem);
+    painter.drawImage(QRectF(rect()), page_->image);
     if (cursor_ && !read_out_.isEmpty()) paintReadOut(painter, theme_, read_out_, *cursor_, QRectF(rect()));
 }
 

@@ -5,12 +5,14 @@
 #include <QPoint>
 #include <QString>
 #include <QWidget>
+#include <memory>
 #include <optional>
 
 #include "base/figure.h"
 #include "draw/axis_map.h"
 #include "draw/clip.h"
-#include "draw/drawing.h"
+#include "gui/plot/panel_page.h"
+#include "gui/window/desk.h"
 
 namespace searchlight::gui {
 
@@ -20,7 +22,7 @@ class FigureView : public QWidget {
     Q_OBJECT
 
 public:
-    explicit FigureView(Theme& theme, QWidget* parent = nullptr);
+    explicit FigureView(Desk& desk, QWidget* parent = nullptr);
 
     /// Keeps the zoom while `figure` has the same axes. A figure without series, panels and map shows `empty_text`.
     void setFigure(Figure figure, const QString& empty_text = {});
@@ -42,6 +44,8 @@ public:
 
 protected:
     void paintEvent(QPaintEvent*) override;
+    void resizeEvent(QResizeEvent*) override;
+    void changeEvent(QEvent* event) override;
     void mouseMoveEvent(QMouseEvent* event) override;
     void mousePressEvent(QMouseEvent* event) override;
     void mouseReleaseEvent(QMouseEvent*) override;
@@ -51,25 +55,19 @@ protected:
     void leaveEvent(QEvent*) override;
 
 private:
-    // Where the drawing of panels stands in the widget.
-    struct PanelPlace {
-        double scale;
-        QPointF offset;
-    };
-
     bool isSingle() const;
     // A small plot has no room for the y axis' label beside it.
     bool labelStandsAbove() const;
-    PanelPlace panelPlace(const Drawing& drawing) const;
     Rect frameOf(const FigureRange& range) const;
     void zoom(double factor, QPointF about);
     void moveBy(QPointF pixels);
     void setCursor(std::optional<QPointF> at);
     void paintSingle(QPainter& painter);
-    const Drawing& panels();
+    void requestPage();
     void paintPanels(QPainter& painter);
     void readPanels(QPointF at);
 
+    Desk& desk_;
     Theme& theme_;
     Figure figure_;
     QString empty_text_;
@@ -78,9 +76,8 @@ private:
     std::optional<QPointF> dragged_from_;
     QStringList read_out_;
     bool legend_beside_ = false;
-    double legend_room_ = 0;         ///< at the right, where it would hide curves
-    std::optional<Drawing> panels_;  ///< laid out for panels_size_
-    QSize panels_size_;
+    double legend_room_ = 0;                 ///< at the right, where it would hide curves
+    std::shared_ptr<const PanelPage> page_;  ///< of a figure with panels or a map; null: none yet
 };
 
 }  // namespace searchlight::gui

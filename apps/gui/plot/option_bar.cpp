@@ -54,7 +54,7 @@ QComboBox* OptionBar::addChoice(const std::string& option, const QString& title,
     return box;
 }
 
-QWidget* OptionBar::addNumber(const std::string& option, const QString& title, int decimals, double step) {
+QDoubleSpinBox* OptionBar::addNumber(const std::string& option, const QString& title, int decimals, double step) {
     auto* box = new QDoubleSpinBox(this);
     const Param& about = param(option);
     box->setAccessibleName(title);

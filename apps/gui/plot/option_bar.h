@@ -9,6 +9,7 @@
 
 class QAbstractButton;
 class QComboBox;
+class QDoubleSpinBox;
 
 namespace searchlight::gui {
 
@@ -24,7 +25,7 @@ public:
     /// A choice; `labels` in the order of the Param's choices.
     QComboBox* addChoice(const std::string& option, const QString& title, const QStringList& labels);
     /// A number with its unit; `decimals` shown.
-    QWidget* addNumber(const std::string& option, const QString& title, int decimals, double step);
+    QDoubleSpinBox* addNumber(const std::string& option, const QString& title, int decimals, double step);
     /// A button that is down while the option is true; the icon may be empty.
     QAbstractButton* addToggle(const std::string& option, const QString& title, const QString& icon);
     /// Anything else.

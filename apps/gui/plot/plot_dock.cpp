@@ -3,6 +3,7 @@
 #include <QApplication>
 #include <QClipboard>
 #include <QComboBox>
+#include <QDoubleSpinBox>
 #include <QFileDialog>
 #include <QLabel>
 #include <QMenu>
@@ -45,7 +46,7 @@ public:
         auto* layout = new QVBoxLayout(this);
         layout->setContentsMargins(0, 0, 0, 0);
         layout->setSpacing(0);
-        view_ = new FigureView(desk.theme, this);
+        view_ = new FigureView(desk, this);
         layout->addWidget(makeBar());
         view_->setObjectName(QStringLiteral("plot.figure"));
         layout->addWidget(view_, 1);
@@ -57,7 +58,10 @@ public:
         layout->addWidget(status_);
         desk_.tasks.atLaneEnd(kLane, [kept = lane_plot_] { kept->plot.reset(); });
         connect(&desk_.workspace, &Workspace::changed, this, [this](Change change) {
-            if (change.any({Part::material, Part::models, Part::parameters, Part::options, Part::seed})) refresh();
+            const bool inverted = desk_.workspace.state().scene.material.inverted();
+            if (change.any({Part::material, Part::models, Part::parameters, Part::options, Part::seed}) ||
+                (inverted && change.has(Part::active)))
+                refresh();
         });
         connect(&desk_.workspace, &Workspace::modelFileChanged, this, [this] { refresh(); });
         refresh();
@@ -72,12 +76,16 @@ private:
         y_scale_ = bar->addChoice("y_scale", tr("Scale of R_d"), {tr("y linear"), tr("y log"), tr("y square root")});
         x_scale_ = bar->addChoice("x_scale", tr("Scale of r"), {tr("x linear"), tr("x log"), tr("x square root")});
         times_radius_ = bar->addChoice("times_radius", tr("Times radius"), {tr("R_d"), tr("R_d · r"), tr("R_d · r²")});
-        bar->addNumber("angle_deg", tr("Angle of incidence"), 0, 5);
+        bar->addNumber("angle_deg", tr("Angle of incidence"), 0, 5)->setPrefix(tr("Beam at "));
         bar->addChoice("walks", tr("Reference"),
                        {tr("No reference"), tr("10⁵ walks"), tr("10⁶ walks"), tr("10⁷ walks")});
         auto* more = new QToolButton(this);
         more->setObjectName(QStringLiteral("plot.export"));
         more->setText(tr("Export"));
+        more->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+        const auto paint = [this, more] { more->setIcon(desk_.theme.icon(QStringLiteral("export"))); };
+        paint();
+        connect(&desk_.theme, &Theme::changed, more, paint);
         more->setAccessibleName(tr("Export the plot"));
         more->setPopupMode(QToolButton::InstantPopup);
         auto* menu = new QMenu(more);

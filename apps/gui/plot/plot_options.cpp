@@ -78,10 +78,11 @@ LiveRequest plotRequest(const State& state) {
     request.view = viewNamed(text(state, "view"));
     for (const int i : plottedSlots(state)) {
         const ModelSlot& slot = state.models[static_cast<std::size_t>(i)];
-        request.models.push_back({slot.model, slot.material.value_or(state.scene.material), slot.color});
+        request.models.push_back({slot.model, slot.material, slot.color});
     }
     if (state.solo >= 0) request.solo = 0;
     request.material = state.scene.material;
+    request.inverted_by = state.activeModel().model;
     request.channel = channelNamed(text(state, "channel"));
     request.x_scale = scaleNamed(text(state, "x_scale"));
     request.y_scale = scaleNamed(text(state, "y_scale"));
@@ -110,7 +111,7 @@ QString plotCommandLine(const State& state) {
     QString line = QStringLiteral("searchlight plot %1 --models %2")
                        .arg(QLatin1String(command),
                             QString::fromStdString(shellWord(models.join(QLatin1Char(',')).toStdString())));
-    for (const std::string& flag : materialFlags(state.scene.material))
+    for (const std::string& flag : materialFlags(state.scene.material, &state.activeModel().model))
         line += QLatin1Char(' ') + QString::fromStdString(flag);
     line += QStringLiteral(" --angle-deg %1 --channel %2 --reference-walks %3")
                 .arg(QString::number(number(state, "angle_deg")), QString::fromStdString(text(state, "channel")),

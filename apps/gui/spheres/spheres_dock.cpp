@@ -1,6 +1,7 @@
 #include "gui/spheres/spheres_dock.h"
 
 #include <QComboBox>
+#include <QDoubleSpinBox>
 #include <QLabel>
 #include <QTimer>
 #include <QVBoxLayout>
@@ -87,8 +88,8 @@ public:
         layout->setSpacing(0);
         auto* bar = new OptionBar(desk, "spheres", this);
         bar->addChoice("quality", tr("Quality"), {tr("Draft"), tr("Good"), tr("Fine")});
-        bar->addNumber("exposure", tr("Exposure"), 1, 0.5);
-        bar->addNumber("difference_scale", tr("End of the difference's scale"), 0, 10);
+        bar->addNumber("exposure", tr("Exposure"), 1, 0.5)->setPrefix(tr("Exposure "));
+        bar->addNumber("difference_scale", tr("End of the difference's scale"), 0, 10)->setPrefix(tr("Scale ±"));
         bar->addToggle("running", tr("Run"), QStringLiteral("play"));
         layout->addWidget(bar);
         view_ = new SphereView(desk, this);
@@ -212,9 +213,12 @@ private:
         for (std::size_t c = 0; c < numbers.errors.size(); ++c) {
             const SphereError& error = numbers.errors[c];
             if (numbers.samples < 2 || numbers.walks == 0 || !std::isfinite(error.rmse)) continue;
-            parts << QStringLiteral("%1 %2%3 ± %4")
-                         .arg(QLatin1String(channels[c]), QLatin1String(error.mean_difference.mean < 0 ? "" : "+"),
-                              percent(error.mean_difference.mean), percent(error.mean_difference.standard_error));
+            // "Mean difference R −1.2 ± 0.1 %", and for the others "G ...".
+            parts << QStringLiteral("%1%2 %3%4 ± %5 %")
+                         .arg(parts.isEmpty() ? tr("Mean difference ") : QString(), QLatin1String(channels[c]),
+                              error.mean_difference.mean < 0 ? QStringLiteral("−") : QStringLiteral("+"))
+                         .arg(100 * std::abs(error.mean_difference.mean), 0, 'f', 1)
+                         .arg(100 * error.mean_difference.standard_error, 0, 'f', 1);
         }
         if (numbers.samples >= 2 && numbers.walks > 0)
             parts << tr("RMSE %1, of it noise %2")

@@ -80,7 +80,7 @@ std::string shellWord(const std::string& text) {
     return quoted + "'";
 }
 
-std::vector<std::string> materialFlags(const SceneMaterial& material) {
+std::vector<std::string> materialFlags(const SceneMaterial& material, const SceneModel* inverted_by) {
     std::vector<std::string> flags;
     if (!material.id.empty()) {
         flags.push_back("--material " + shellWord(material.id));
@@ -93,17 +93,29 @@ std::vector<std::string> materialFlags(const SceneMaterial& material) {
         list("--Rdr", material.Rdr);
         list("--ld", material.ld);
         list("--g", material.g);
+        if (material.inverted() && inverted_by) {
+            std::string model = inverted_by->id;
+            for (const auto& [name, value] : inverted_by->parameters)
+                model += fmt::format(":{}={}", name, valueText(value));
+            flags.push_back("--inverted-by " + shellWord(model));
+        }
         flags.push_back("--eta " + numberText(material.eta));
     }
     if (material.scale != 1) flags.push_back("--material-scale " + numberText(material.scale));
     return flags;
 }
 
-std::string commandLine(const State& state, const std::string& output, int width, int height) {
+std::string commandLine(const State& state, const PictureFile& file) {
     Job job = renderJob(state);
     job.window.clear();
-    job.output = output;
-    job.options["size"] = fmt::format("{}x{}", width, height);
+    job.output = file.path;
+    job.options["size"] = fmt::format("{}x{}", file.width, file.height);
+    // A thousandth of a stop is less than a step of 8 bits.
+    job.options["exposure"] = fmt::format("{:.3f}", file.exposure);
+    if (const ParamValue& curve = optionOf(state, "view", "curve"); curve != ParamValue(std::string("srgb")))
+        job.options["curve"] = curve;
+    if (const ParamValue& gamma = optionOf(state, "view", "gamma"); gamma != ParamValue(1.0))
+        job.options["gamma"] = gamma;
     const Scene& scene = job.scene;
     const Camera standard;
     LightFlags lights = lightFlags(scene.lights);
@@ -114,7 +126,7 @@ std::string commandLine(const State& state, const std::string& output, int width
                                    "--model " + shellWord(scene.model.id)};
     for (const auto& [name, value] : scene.model.parameters)
         words.push_back("--set " + shellWord(name + "=" + valueText(value)));
-    for (std::string& flag : materialFlags(scene.material)) words.push_back(std::move(flag));
+    for (std::string& flag : materialFlags(scene.material, nullptr)) words.push_back(std::move(flag));
     words.insert(words.end(), lights.flags.begin(), lights.flags.end());
     const Camera& camera = scene.camera;
     std::string at = numberText(camera.azimuth_deg) + "," + numberText(camera.elevation_deg);
@@ -130,7 +142,7 @@ std::string commandLine(const State& state, const std::string& output, int width
                         (scene.coat->brdf.empty() ? numberText(scene.coat->roughness) : shellWord(scene.coat->brdf)));
     for (const auto& [name, value] : job.options) words.push_back(optionFlag(name, value));
     if (job.seed != 1) words.push_back(fmt::format("--seed {}", job.seed));
-    words.push_back("-o " + shellWord(output));
+    words.push_back("-o " + shellWord(file.path));
     return join(words, " ");
 }
 

@@ -50,7 +50,7 @@ ObjectView::ObjectView(Desk& desk, QWidget* parent) : QWidget(parent), desk_(des
     setCursor(Qt::OpenHandCursor);
     connect(&pictures_, &PictureService::pictureShown, this, [this] {
         error_.clear();
-        setAccessibleDescription(statusText());
+        setAccessibleDescription(statusText(true));
         update();
     });
     connect(&pictures_, &PictureService::failed, this, [this](const QString& text) {

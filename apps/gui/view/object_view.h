@@ -48,7 +48,7 @@ private:
     double wipeX() const;
     void paintLabels(QPainter& painter);
     void paintScale(QPainter& painter);
-    QString statusText() const;
+    QString statusText(bool spoken) const;
 
     Desk& desk_;
     PictureService pictures_;

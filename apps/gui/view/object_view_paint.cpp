@@ -3,6 +3,7 @@
 #include <QPainter>
 #include <QPainterPath>
 #include <algorithm>
+#include <cmath>
 
 #include "gui/view/object_view.h"
 #include "gui/view/shown_image.h"
@@ -12,10 +13,24 @@ namespace searchlight::gui {
 
 namespace {
 
+constexpr int scale_top = 84;  // below the chips
 constexpr QRgb difference_ground = qRgb(74, 75, 78), difference_text = qRgb(233, 232, 230);
 
 const std::string& textOption(const State& state, const char* name) {
     return std::get<std::string>(optionOf(state, "view", name));
+}
+
+// "RMSE 12.3 %  ·  mean +1.2 %"; empty: not compared.
+QString differenceText(const PictureDifference& differs) {
+    if (differs.rms < 0) return {};
+    // Three figures at most, and no more than a picture of 8 bits can tell.
+    const auto percent = [](double value) {
+        const double size = std::abs(100 * value);
+        return QString::number(size, 'f', size < 1 ? 2 : size < 100 ? 1 : 0);
+    };
+    return QObject::tr("RMSE %1 %  \u00b7  mean %2%3 %")
+        .arg(percent(differs.rms), differs.mean < 0 ? QStringLiteral("\u2212") : QStringLiteral("+"),
+             percent(differs.mean));
 }
 
 }  // namespace
@@ -57,14 +72,14 @@ void ObjectView::paintLabels(QPainter& painter) {
     painter.setRenderHint(QPainter::Antialiasing);
     painter.setFont(desk_.theme.smallFont());
     const QFontMetrics metrics(painter.font());
+    QColor ground = colors.panel;
+    ground.setAlphaF(0.86F);
     const auto chip = [&](const QString& text, QPointF at, Qt::Alignment side, QColor dot) {
         const double wide = metrics.horizontalAdvance(text) + 2 * Space::m + (dot.isValid() ? 14 : 0);
         const double high = metrics.height() + Space::s;
         const QRectF box(side & Qt::AlignRight ? at.x() - wide : at.x(), at.y(), wide, high);
-        QColor back = colors.panel;
-        back.setAlphaF(0.86F);
         painter.setPen(Qt::NoPen);
-        painter.setBrush(back);
+        painter.setBrush(ground);
         painter.drawRoundedRect(box, high / 2, high / 2);
         double x = box.left() + Space::m;
         if (dot.isValid()) {
@@ -94,12 +109,14 @@ void ObjectView::paintLabels(QPainter& painter) {
             if (against.startsWith("model ") && against.mid(6).toInt() < static_cast<int>(state.models.size()))
                 dot = desk_.theme.seriesColor(state.models[static_cast<std::size_t>(against.mid(6).toInt())].color);
             chip(label, {width() - double(Space::m), Space::m}, Qt::AlignRight, dot);
+            const QString differs = differenceText(shown.differs);
+            if (!differs.isEmpty())
+                chip(differs, {width() - double(Space::m), 2.0 * Space::m + metrics.height()}, Qt::AlignRight, {});
         }
     }
     if (wiping() && !shown.b.isNull()) {
         painter.setPen(QPen(colors.text, 1.5));
-        // Not through what is written below.
-        painter.drawLine(QPointF(wipeX(), 0), QPointF(wipeX(), height() - Space::xl));
+        painter.drawLine(QPointF(wipeX(), 0), QPointF(wipeX(), height()));
         painter.setBrush(colors.panel);
         painter.drawEllipse(QPointF(wipeX(), height() / 2.0), 13, 13);
         QPainterPath arrows;
@@ -111,17 +128,23 @@ void ObjectView::paintLabels(QPainter& painter) {
         painter.setBrush(Qt::NoBrush);
         painter.drawPath(arrows);
     }
-    const QString status = error_.isEmpty() ? statusText() : error_;
-    const bool difference = comparing() && !wiping() && !pictures_.shown().difference.isNull();
-    painter.setPen(!error_.isEmpty() ? colors.error : difference ? QColor(difference_text) : colors.muted);
-    painter.drawText(QRectF(Space::m, 0, width() - 2.0 * Space::m, height() - Space::s),
-                     Qt::AlignBottom | Qt::AlignLeft | Qt::TextWordWrap, status);
+    // On a ground of its own: behind it may be a bright sky.
+    const bool failed = !error_.isEmpty();
+    constexpr int sides = 2 * (Space::m + Space::s), bottom = Space::m + Space::xs;
+    const QString status = failed ? error_ : statusText(false);
+    const QRectF text = painter.boundingRect(QRectF(0.5 * sides, 0, width() - sides, height() - bottom),
+                                             Qt::AlignBottom | Qt::AlignLeft | Qt::TextWordWrap, status);
+    painter.setPen(failed ? QPen(colors.error, 1) : QPen(Qt::NoPen));
+    painter.setBrush(ground);
+    painter.drawRoundedRect(text.adjusted(-Space::s, -Space::xs, Space::s, Space::xs), Space::radius, Space::radius);
+    painter.setPen(failed ? colors.error : colors.muted);
+    painter.drawText(text, Qt::AlignBottom | Qt::AlignLeft | Qt::TextWordWrap, status);
 }
 
 void ObjectView::paintScale(QPainter& painter) {
     const double scale = std::get<double>(optionOf(desk_.workspace.state(), "view", "difference_scale"));
     constexpr int wide = 160;
-    const QRectF bar(width() - wide - 2.0 * Space::xl, 56, wide, 8);
+    const QRectF bar(width() - wide - 2.0 * Space::xl, scale_top, wide, 8);
     painter.setPen(Qt::NoPen);
     painter.setBrush(QColor(difference_ground).darker(140));
     painter.drawRoundedRect(bar.adjusted(-Space::l, -Space::s, Space::l, 26), Space::radius, Space::radius);
@@ -136,7 +159,7 @@ void ObjectView::paintScale(QPainter& painter) {
     painter.drawText(below, Qt::AlignRight, tr("+%1 %").arg(scale, 0, 'g', 3));
 }
 
-QString ObjectView::statusText() const {
+QString ObjectView::statusText(bool spoken) const {
     const ViewPicture& shown = pictures_.shown();
     if (shown.a.isNull()) return tr("Preparing the object...");
     const State& state = desk_.workspace.state();
@@ -148,8 +171,9 @@ QString ObjectView::statusText() const {
                 .arg(shown.ms, 0, 'f', 0);
     if (shown.report.technique.error_bound > 0)
         text += tr("  \u00b7  error at most %1 %").arg(100 * shown.report.technique.error_bound, 0, 'g', 2);
-    if (shown.difference_rms >= 0 && comparing())
-        text += tr("  \u00b7  differs by %1 % (RMS over the mean)").arg(100 * shown.difference_rms, 0, 'g', 3);
+    const QString differs = differenceText(shown.differs);
+    // Written above, beside what it is the difference from; here for those who hear it.
+    if (spoken && comparing() && !differs.isEmpty()) text += "  \u00b7  " + differs;
     return text;
 }
 

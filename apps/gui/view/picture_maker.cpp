@@ -60,6 +60,19 @@ RenderSettings settingsOf(const PictureRequest& request, std::size_t points) {
     return settings;
 }
 
+bool hasSurroundings(const Scene& scene) {
+    return scene.ground || scene.backdrop || std::ranges::any_of(scene.lights, [](const Light& light) {
+               return std::holds_alternative<EnvironmentLight>(light);
+           });
+}
+
+std::shared_ptr<const std::vector<float>> coverageOf(const VisibleSurface& visible) {
+    auto coverage = std::make_shared<std::vector<float>>(static_cast<std::size_t>(visible.width) *
+                                                         static_cast<std::size_t>(visible.height));
+    for (std::size_t i = 0; i < visible.pixels.size(); ++i) (*coverage)[visible.pixels[i]] += visible.coverage[i];
+    return coverage;
+}
+
 }  // namespace
 
 Picture PictureMaker::make(const std::string& side, const PictureRequest& request, TaskContext& context,
@@ -88,14 +101,23 @@ Picture PictureMaker::makeOnce(const std::string& name, const PictureRequest& re
         side.has_context = needs_context;
         Engine& engine = context.engine();
         side.renderer = std::make_unique<Renderer>(
-            [this, &side, &engine](const Scene& scene) { return materialOf(scene, engine, side.subject); },
+            [this, &side, &engine](const Scene& scene) { return materialOf(scene, engine, side); },
             needs_context ? &engine.context() : nullptr);
     }
     Renderer& renderer = *side.renderer;
+    const auto same = [](const SceneModel& x, const SceneModel& y) {
+        return x.id == y.id && x.parameters == y.parameters;
+    };
+    if (side.inverted_by.has_value() != request.inverted_by.has_value() ||
+        (side.inverted_by && !same(*side.inverted_by, *request.inverted_by))) {
+        side.inverted_by = request.inverted_by;
+        renderer.forgetMaterial();
+    }
     renderer.setScene(request.scene);
     renderer.setSettings(settingsOf(request, side.points));
     Picture picture;
     renderer.start(context);
+    if (hasSurroundings(request.scene)) picture.coverage = coverageOf(*renderer.stages().visible);
     if (request.layer == "picture") {
         auto told = Clock::now();
         while (!renderer.step(context)) {
@@ -122,9 +144,11 @@ Picture PictureMaker::makeOnce(const std::string& name, const PictureRequest& re
     return picture;
 }
 
-RenderMaterial PictureMaker::materialOf(const Scene& scene, Engine& engine, Subject& subject) {
+RenderMaterial PictureMaker::materialOf(const Scene& scene, Engine& engine, Side& side) {
     Job job;
     job.scene = scene;
+    if (side.inverted_by) job.scene.model = *side.inverted_by;
+    Subject& subject = side.subject;
     subject = subjectOf(job, engine);
     if (!subject.comparable)
         subject.notes.emplace_back("The material's table does not state its unit: it was taken as 1/mm.");

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/image.h"
 #include "gui/tasks/tasks.h"
@@ -18,6 +19,7 @@ namespace searchlight::gui {
 /// What one side of the view shows.
 struct PictureRequest {
     Scene scene;
+    std::optional<SceneModel> inverted_by;  ///< of Rdr and ld; none: the scene's model
     std::string technique = "hierarchical";
     ParamValues technique_options;
     std::uint64_t seed = 1;
@@ -30,6 +32,8 @@ struct PictureRequest {
 /// One side, done.
 struct Picture {
     std::shared_ptr<const Image> image;  ///< linear, of the computed size; null: none
+    /// Of each pixel, the part that shows the object; null: the image's alpha says it, as nothing stands behind.
+    std::shared_ptr<const std::vector<float>> coverage;
     RenderReport report;
     Subject subject;
     double ms = 0;  ///< on the engine's thread
@@ -56,6 +60,7 @@ public:
 private:
     struct Side {
         Subject subject;
+        std::optional<SceneModel> inverted_by;
         bool has_context = false;
         std::unique_ptr<Renderer> renderer;
         std::size_t points = 0;  ///< of the last picture
@@ -67,7 +72,7 @@ private:
 
     Picture makeOnce(const std::string& side, const PictureRequest& request, TaskContext& context,
                      const std::function<void(const Picture&)>& so_far);
-    RenderMaterial materialOf(const Scene& scene, Engine& engine, Subject& subject);
+    RenderMaterial materialOf(const Scene& scene, Engine& engine, Side& side);
 
     std::map<std::string, Side> sides_;
     std::map<std::string, LoadedFile> files_;  ///< models that OpenGL compiled, by id: a slider must not compile again

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gui/view/shown_image.h"
+#include "gui/view/technique_options.h"
 #include "model/model.h"
 
 namespace searchlight::gui {
@@ -132,13 +132,16 @@ PictureService::Request PictureService::requestOf(bool moving) const {
         if (against.startsWith("model ") && what.toInt() >= 0 && what.toInt() < static_cast<int>(state.models.size())) {
             request.b = request.a;
             request.b->scene = sceneOf(state, what.toInt());
+            // Both sides stand for one medium, unless one has its own.
+            if (!state.models[static_cast<std::size_t>(what.toInt())].material)
+                request.b->inverted_by = state.activeModel().model;
             request.label_b = modelLabel(what.toInt());
         } else if (against.startsWith("technique ")) {
             request.b = request.a;
             request.b->technique = what.toStdString();
             request.b->technique_options.clear();
-            request.label_b = QString(what).replace('_', ' ');
-            request.label_a = QString::fromStdString(state.technique).replace('_', ' ');
+            request.label_b = techniqueTitle(what.toStdString());
+            request.label_a = techniqueTitle(state.technique);
         } else {
             request.with_reference = true;
             // The walks know what leaves the object, and nothing of what stands around it.
@@ -180,11 +183,15 @@ ViewPicture PictureService::viewOf(const Request& request, const Picture& a, con
     if (!picture.linear_b) return picture;
     const Image &one = *picture.linear_a, &other = *picture.linear_b;
     picture.b = shownImage(other, tone_map, request.channel);
-    if (one.width == other.width && one.height == other.height) {
-        picture.difference_rms = relativeDifference(one, other, request.channel);
-        if (request.difference)
-            picture.difference = differenceImage(one, other, request.difference_scale, request.channel);
-    }
+    if (one.width != other.width || one.height != other.height) return picture;
+    const auto compare = [&](const Image& x, const Image& y) {
+        picture.differs = relativeDifference(x, y, request.channel);
+        if (request.difference) picture.difference = differenceImage(x, y, request.difference_scale, request.channel);
+    };
+    if (a.coverage)
+        compare(objectAlone(one, *a.coverage), objectAlone(other, *a.coverage));
+    else
+        compare(one, other);
     return picture;
 }
 
@@ -236,6 +243,7 @@ void PictureService::partlyDelivered(ViewPicture picture) {
     if (picture.b.isNull() && picture.label_b == shown_.label_b) {
         picture.b = shown_.b;
         picture.difference = shown_.difference;
+        picture.differs = shown_.differs;
     }
     shown_ = std::move(picture);
     emit pictureShown();

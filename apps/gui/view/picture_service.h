@@ -11,6 +11,7 @@
 
 #include "gui/view/picture_maker.h"
 #include "gui/view/reference_picture.h"
+#include "gui/view/shown_image.h"
 #include "gui/window/desk.h"
 
 namespace searchlight::gui {
@@ -27,7 +28,7 @@ struct ViewPicture {
     double ms = 0;               ///< on the engine's thread
     double preview = 1;          ///< fraction of the full size
     bool partly = false;         ///< a side is still being summed, or missing
-    double difference_rms = -1;  ///< of a against b over the mean of b; below 0: not compared
+    PictureDifference differs;   ///< a from b, as linear pictures
     std::uint64_t walks = 0;     ///< of the reference; 0: b is none
     double reference_error = 0;  ///< of a pixel of it, relative
 };

@@ -66,6 +66,14 @@ QImage shownImage(const Image& picture, const ToneMap& tone_map, const std::stri
     return shown;
 }
 
+Image objectAlone(Image picture, const std::vector<float>& coverage) {
+    assert(picture.pixels.size() == coverage.size());
+    constexpr float whole = 0.999F;  // sums of a few parts end a little below 1
+    for (std::size_t i = 0; i < coverage.size(); ++i)
+        if (coverage[i] < whole) picture.pixels[i] = {0, 0, 0, 0};
+    return picture;
+}
+
 QRgb differenceColor(double value) {
     // Linear in sRGB from a light grey to a blue and an orange of the same lightness, so that neither sign looks
     // larger.
@@ -94,20 +102,21 @@ QImage differenceImage(const Image& a, const Image& b, double scale, const std::
     return shown;
 }
 
-double relativeDifference(const Image& a, const Image& b, const std::string& channel) {
+PictureDifference relativeDifference(const Image& a, const Image& b, const std::string& channel) {
     assert(a.width == b.width && a.height == b.height);
     const double mean = meanOf(b, channel);
-    if (!(mean > 0)) return std::numeric_limits<double>::quiet_NaN();
-    double sum = 0, count = 0;
+    if (!(mean > 0)) return {};
+    double squares = 0, sum = 0, count = 0;
     for (std::size_t i = 0; i < a.pixels.size(); ++i) {
         const double coverage = std::max(a.pixels[i].a, b.pixels[i].a);
         if (coverage <= 0) continue;
         const double difference = valueOf(a.pixels[i], channel) - valueOf(b.pixels[i], channel);
         if (!std::isfinite(difference)) continue;
-        sum += coverage * difference * difference;
+        squares += coverage * difference * difference;
+        sum += coverage * difference;
         count += coverage;
     }
-    return std::sqrt(sum / count) / mean;
+    return {std::sqrt(squares / count) / mean, sum / count / mean};
 }
 
 }  // namespace searchlight::gui

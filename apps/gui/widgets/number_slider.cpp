@@ -155,7 +155,11 @@ void NumberSlider::setValue(double value) {
     if (!field_->hasFocus() || !field_->isModified()) showText();
 }
 
-void NumberSlider::showText() { field_->setText(numberText(value_)); }
+void NumberSlider::showText() {
+    // Counts are not written with exponents.
+    const bool count = range_.whole && std::abs(value_) < 1e9;
+    field_->setText(count ? QString::number(value_, 'f', 0) : numberText(value_));
+}
 
 void NumberSlider::setProblem(const QString& text) {
     problem_->setText(text);

@@ -60,7 +60,9 @@ NumberRange sliderRange(const Param& param) {
     // Beyond four decades about the default nobody turns a knob; a field takes the rest.
     if (range.high > about * 1e4) range.high = about * 1e3;
     if (range.low < -about * 1e4) range.low = -about * 1e3;
-    range.logarithmic = !range.whole && range.min >= 0 && range.high >= 100 * std::max(range.low, about * 1e-2);
+    range.logarithmic = range.min >= 0 && range.high >= 100 * std::max(range.low, about * 1e-2);
+    // Counts from 1 to a million have decades as lengths have; those that may be 0 keep it in reach.
+    if (range.whole) range.logarithmic = range.low >= 1 && range.high >= 1000 * range.low;
     if (range.logarithmic && range.low <= about * 1e-4) range.low = std::min(about * 1e-3, range.high / 1e3);
     return range;
 }

@@ -190,6 +190,9 @@ void MainWindow::begin(const QString& way) {
         // Code below the object needs more room than a plot.
         if (way == "editor" && dockWidgetArea(dock(way)) == Qt::BottomDockWidgetArea)
             resizeDocks({dock(way)}, {height() / 2}, Qt::Vertical);
+        // Beside it, lines of code want to be seen whole.
+        if (way == "editor" && dockWidgetArea(dock(way)) == Qt::RightDockWidgetArea)
+            resizeDocks({dock(way)}, {std::max(dock(way)->width(), std::min(width() * 2 / 5, 600))}, Qt::Horizontal);
         return;
     }
     desk_.workspace.edit(tr("Compare with the reference"), {}, [](State& state) {
@@ -209,10 +212,13 @@ void MainWindow::savePicture() {
 }
 
 void MainWindow::copyCommand() {
+    const ViewPicture& shown = view_->pictures().shown();
     const QSize size = view_->size() * view_->devicePixelRatioF();
-    QApplication::clipboard()->setText(
-        QString::fromStdString(commandLine(desk_.workspace.state(), "picture.png", size.width(), size.height())));
-    desk_.notices.post(Notices::Level::info, tr("The command that makes this picture is in the clipboard."));
+    QApplication::clipboard()->setText(QString::fromStdString(commandLine(
+        desk_.workspace.state(),
+        {.path = "picture.png", .width = size.width(), .height = size.height(), .exposure = shown.exposure})));
+    desk_.notices.post(Notices::Level::info,
+                       tr("The command that makes the picture of %1 is in the clipboard.").arg(shown.label_a));
 }
 
 void MainWindow::setTheme(const QString& name) {

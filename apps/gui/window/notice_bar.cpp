@@ -41,8 +41,9 @@ void NoticeBar::show(Notices::Level level, const QString& text) {
                                                             : "info");
     style()->unpolish(this);
     style()->polish(this);
-    place();
+    // Its text has its font, and so its height, once it is shown.
     QWidget::show();
+    place();
     raise();
     hide_.stop();
     if (level != Notices::Level::error) hide_.start(6000);
@@ -51,9 +52,10 @@ void NoticeBar::show(Notices::Level level, const QString& text) {
 void NoticeBar::place() {
     const int width = std::min(640, host_->width() - 2 * Space::xl);
     setFixedWidth(std::max(width, 120));
-    const int height = layout()->heightForWidth(this->width());
+    const int height = heightForWidth(this->width());
     resize(this->width(), height > 0 ? height : sizeHint().height());
-    move((host_->width() - this->width()) / 2, host_->height() - this->height() - Space::xl);
+    // Above the line that the view writes at its bottom.
+    move((host_->width() - this->width()) / 2, host_->height() - this->height() - 2 * Space::xl);
 }
 
 bool NoticeBar::eventFilter(QObject* watched, QEvent* event) {

@@ -198,8 +198,8 @@ QIcon Theme::icon(const QString& name) const {
     return QIcon(new SvgIcon(":/icons/" + name + ".svg", colors_.text, disabled, colors_.accent));
 }
 
-QColor Theme::onPanel(const QColor& color) const {
-    if (!dark_ || color.lightnessF() >= 0.6F) return color;
+QColor Theme::onPanel(const QColor& color, bool dark) {
+    if (!dark || color.lightnessF() >= 0.6F) return color;
     return QColor::fromHslF(color.hslHueF(), std::min(color.hslSaturationF(), 0.85F), 0.6F);
 }
 

@@ -56,7 +56,8 @@ public:
     QIcon icon(const QString& name) const;
 
     /// A colour of figures on paper, lightened where the theme is dark.
-    QColor onPanel(const QColor& color) const;
+    QColor onPanel(const QColor& color) const { return onPanel(color, dark_); }
+    static QColor onPanel(const QColor& color, bool dark);
     /// The colour of a series, as the plot has it.
     QColor seriesColor(int index) const;
 

@@ -10,6 +10,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
+#include "gui/view/technique_options.h"
 #include "gui/widgets/flow_row.h"
 #include "gui/widgets/number_slider.h"
 #include "gui/widgets/segments.h"
@@ -69,7 +70,7 @@ ViewBar::ViewBar(Desk& desk, QWidget* parent) : QWidget(parent), desk_(desk) {
     technique_ = makeBox(tr("Technique"), tr("How the light in the object is summed"));
     for (const TechniqueEntry& entry : techniques()) {
         const QString id = QString::fromUtf8(entry.id.data(), static_cast<qsizetype>(entry.id.size()));
-        technique_->addItem(QString(id).replace('_', ' '), id);
+        technique_->addItem(techniqueTitle(entry.id), id);
         technique_->setItemData(technique_->count() - 1,
                                 QString::fromUtf8(entry.summary.data(), static_cast<qsizetype>(entry.summary.size())),
                                 Qt::ToolTipRole);
@@ -83,6 +84,7 @@ ViewBar::ViewBar(Desk& desk, QWidget* parent) : QWidget(parent), desk_(desk) {
     QHBoxLayout* made_with = group(first);
     made_with->addWidget(model_, 3);
     made_with->addWidget(technique_, 2);
+    made_with->addWidget(makeTechniqueButton());
     compare_ = new Segments(tr("Compare"), {tr("Alone"), tr("Wipe"), tr("Difference")}, this);
     connect(compare_, &Segments::chosen, this, [this](int chosen) {
         desk_.workspace.setOption(tr("Compare"), "view", "compare", std::string(compare_values[chosen]));
@@ -139,6 +141,19 @@ ViewBar::ViewBar(Desk& desk, QWidget* parent) : QWidget(parent), desk_(desk) {
     refresh();
 }
 
+QToolButton* ViewBar::makeTechniqueButton() {
+    auto* button = new QToolButton(this);
+    button->setObjectName("view.technique_options");
+    button->setToolTip(tr("Options of the technique"));
+    button->setAccessibleName(tr("Options of the technique"));
+    const auto paint = [this, button] { button->setIcon(desk_.theme.icon("options")); };
+    paint();
+    connect(&desk_.theme, &Theme::changed, button, paint);
+    auto* sheet = new TechniqueOptions(desk_, this);
+    connect(button, &QToolButton::clicked, sheet, [sheet, button] { sheet->openBelow(button); });
+    return button;
+}
+
 QComboBox* ViewBar::makeBox(const QString& name, const QString& doc) {
     auto* box = new QComboBox(this);
     box->setAccessibleName(name);
@@ -177,14 +192,16 @@ void ViewBar::refillModels() {
     model_->clear();
     against_->clear();
     against_->addItem(tr("Reference (Monte Carlo)"), "reference");
+    against_->insertSeparator(against_->count());
     for (std::size_t i = 0; i < state.models.size(); ++i) {
         const QIcon icon = dot(desk_.theme.seriesColor(state.models[i].color));
         model_->addItem(icon, titleOf(state.models[i].model.id));
         against_->addItem(icon, titleOf(state.models[i].model.id), QString("model %1").arg(i));
     }
+    against_->insertSeparator(against_->count());
     for (const TechniqueEntry& entry : techniques()) {
         const QString id = QString::fromUtf8(entry.id.data(), static_cast<qsizetype>(entry.id.size()));
-        against_->addItem(QString(id).replace('_', ' '), "technique " + id);
+        against_->addItem(techniqueTitle(entry.id), "technique " + id);
     }
 }
 

@@ -8,6 +8,7 @@
 #include "gui/window/desk.h"
 
 class QComboBox;
+class QToolButton;
 
 namespace searchlight::gui {
 
@@ -23,6 +24,7 @@ public:
 private:
     void refresh();
     void refillModels();
+    QToolButton* makeTechniqueButton();
     QComboBox* makeBox(const QString& name, const QString& doc);
     QComboBox* makeOption(const char* option, const QString& name);
 
@@ -31,7 +33,7 @@ private:
     Segments* compare_;
     NumberSlider* exposure_;
     NumberSlider* difference_;
-    class QToolButton* auto_;
+    QToolButton* auto_;
     std::vector<std::function<void()>> refresh_;
 };
 

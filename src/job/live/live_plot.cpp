@@ -80,7 +80,7 @@ struct LivePlot::Impl {
         double walks = 0;
     };
 
-    LoadedModel& model(const LiveModel& slot, std::size_t place);
+    LoadedModel& model(const LiveModel& slot, std::size_t place, const Medium& shared);
     Medium mediumOf(const SceneMaterial& material, const SceneModel& model);
     std::vector<double> edgesOf(const LiveRequest& request, const Medium& medium) const;
     std::optional<ReferenceRun> whiteRun(const LiveRequest& request, const Medium& medium);
@@ -103,7 +103,7 @@ Medium LivePlot::Impl::mediumOf(const SceneMaterial& material, const SceneModel&
     return subjectOf(job, engine_).medium;
 }
 
-LoadedModel& LivePlot::Impl::model(const LiveModel& slot, std::size_t place) {
+LoadedModel& LivePlot::Impl::model(const LiveModel& slot, std::size_t place, const Medium& shared) {
     const std::string key = fmt::format("{} {}", place, slot.model.id), stamp = modelStamp(slot.model.id);
     auto found = models_.find(key);
     if (found != models_.end() && found->second.stamp != stamp) {
@@ -123,7 +123,7 @@ LoadedModel& LivePlot::Impl::model(const LiveModel& slot, std::size_t place) {
     for (const auto& [name, value] : slot.model.parameters)
         settings.push_back(fmt::format("{}={}", name, valueText(value)));
     loaded.parameters = parseSettings(loaded.model, settings);
-    loaded.medium = mediumOf(slot.material, slot.model);
+    loaded.medium = slot.material ? mediumOf(*slot.material, slot.model) : shared;
     loaded.evaluator->set(loaded.medium, loaded.parameters);
     return loaded;
 }
@@ -188,7 +188,7 @@ bool LivePlot::Impl::improveWhite(const LiveRequest& request, const Medium& medi
 
 bool LivePlot::Impl::improve(const LiveRequest& request, Observer& observer) {
     if (request.walks <= 0) return false;
-    const Medium medium = mediumOf(request.material, request.models.empty() ? SceneModel{} : request.models[0].model);
+    const Medium medium = mediumOf(request.material, request.inverted_by);
     if (!isPlane(request)) {
         if (improveWhite(request, medium, observer)) return true;
         if (whiteRun(request, medium)) return false;
@@ -247,7 +247,7 @@ void LivePlot::Impl::drawProfile(const LiveRequest& request, const Medium& mediu
     for (std::size_t i = 0; i < request.models.size(); ++i) {
         if (request.solo >= 0 && static_cast<std::size_t>(request.solo) != i) continue;
         try {
-            LoadedModel& loaded = model(request.models[i], i);
+            LoadedModel& loaded = model(request.models[i], i, medium);
             // A model that has to be summed over directions costs hundreds of evaluations a point.
             const bool summed = !loaded.model.file.no_wo, turned = request.angle_deg > 0 && !loaded.model.file.radial;
             const int count = detail == LiveDetail::coarse ? (summed ? 24 : 64) : summed && turned ? 96 : 256;
@@ -300,7 +300,7 @@ void LivePlot::Impl::drawPlane(const LiveRequest& request, const Medium& medium,
     for (std::size_t i = 0; i < request.models.size(); ++i) {
         if (request.solo >= 0 && static_cast<std::size_t>(request.solo) != i) continue;
         try {
-            LoadedModel& loaded = model(request.models[i], i);
+            LoadedModel& loaded = model(request.models[i], i, medium);
             if (slice)
                 panels.push_back({.heading = modelLabel(loaded),
                                   .means = incidentCellMeans(loaded, request.angle_deg, squareCells(extent, cells))});
@@ -335,7 +335,7 @@ void LivePlot::Impl::drawPlane(const LiveRequest& request, const Medium& medium,
 
 LivePlotResult LivePlot::Impl::draw(const LiveRequest& request, LiveDetail detail) {
     LivePlotResult result;
-    const Medium medium = mediumOf(request.material, request.models.empty() ? SceneModel{} : request.models[0].model);
+    const Medium medium = mediumOf(request.material, request.inverted_by);
     if (isPlane(request))
         drawPlane(request, medium, detail, result);
     else

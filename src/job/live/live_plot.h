@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,10 +16,10 @@
 
 namespace searchlight {
 
-/// A model of the plot, its medium, and the colour that it keeps (draw/palette.h).
+/// A model of the plot, and the colour that it keeps (draw/palette.h).
 struct LiveModel {
     SceneModel model;
-    SceneMaterial material;
+    std::optional<SceneMaterial> material;  ///< its own, inverted by itself; none: the request's
     int color = 0;
 };
 
@@ -33,7 +34,8 @@ struct LiveRequest {
     View view = View::profile;
     std::vector<LiveModel> models;  ///< those to be seen
     int solo = -1;                  ///< index into models: alone, channel by channel
-    SceneMaterial material;         ///< the reference's
+    SceneMaterial material;         ///< the reference's, and of models that have none of their own
+    SceneModel inverted_by;         ///< what inverts that, where it is Rdr and ld
     PlotChannel channel = PlotChannel::red;
     AxisScale x_scale = AxisScale::linear, y_scale = AxisScale::logarithmic;
     int radius_power = 0;
