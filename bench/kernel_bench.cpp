@@ -42,7 +42,8 @@ std::vector<MethodOptions> everyMethod() {
             {.method = "manual"},
             {.method = "skin"},
             {.method = "optimised"},
-            {.method = "optimised", .rank = 2}};
+            {.method = "optimised", .rank = 2},
+            {.method = "turned"}};
 }
 
 void make(benchmark::State& state) {
@@ -52,7 +53,7 @@ void make(benchmark::State& state) {
     for (auto _ : state) name = makeKernel(skin(), cells, options).name;
     state.SetLabel(name + (options.placed ? ", placed" : ""));
 }
-BENCHMARK(make)->DenseRange(0, 12)->Unit(benchmark::kMillisecond);
+BENCHMARK(make)->DenseRange(0, 13)->Unit(benchmark::kMillisecond);
 
 void judge(benchmark::State& state) {
     for (auto _ : state) benchmark::DoNotOptimize(Judge(skin()));

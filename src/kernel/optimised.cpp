@@ -56,23 +56,27 @@ public:
         const auto F = static_cast<Index>(probes_.size());
         // cos and sin of frequency times offset along both axes of each term.
         std::vector<MatrixXd> cosine(2 * T), sine(2 * T);
-        MatrixXd along(F, static_cast<Index>(2 * T));
         for (std::size_t t = 0; t < T; ++t) {
             const double angle = layout_.angle_deg[t] * std::numbers::pi / 180;
             for (std::size_t axis = 0; axis < 2; ++axis) {
                 MatrixXd& cos = cosine[2 * t + axis] = MatrixXd::Ones(F, static_cast<Index>(n + 1));
                 MatrixXd& sin = sine[2 * t + axis] = MatrixXd::Zero(F, static_cast<Index>(n + 1));
                 if (layout_.line && axis == 1) continue;
+                if (layout_.turned && axis == 1) {
+                    cos = cosine[2 * t];
+                    sin = sine[2 * t];
+                    continue;
+                }
                 const double ax = axis == 0 ? std::cos(angle) : -std::sin(angle);
                 const double ay = axis == 0 ? std::sin(angle) : std::cos(angle);
-                for (Index f = 0; f < F; ++f) {
-                    const Probe& probe = probes_[static_cast<std::size_t>(f)];
-                    const double omega = layout_.turned ? probe.x : ax * probe.x + ay * probe.y;
-                    along(f, static_cast<Index>(2 * t + axis)) = omega;
-                    for (std::size_t k = 1; k <= n; ++k) {
-                        const double phase = omega * std::exp(x(static_cast<Index>(layout_.offset(t, k - 1))));
+                for (std::size_t k = 1; k <= n; ++k) {
+                    const double offset = std::exp(x(static_cast<Index>(layout_.offset(t, k - 1))));
+                    for (Index f = 0; f < F; ++f) {
+                        const Probe& probe = probes_[static_cast<std::size_t>(f)];
+                        const double phase = offset * (layout_.turned ? probe.x : ax * probe.x + ay * probe.y);
                         cos(f, static_cast<Index>(k)) = layout_.turned ? ::j0(phase) : std::cos(phase);
-                        sin(f, static_cast<Index>(k)) = phase * (layout_.turned ? ::j1(phase) : std::sin(phase));
+                        if (gradient)
+                            sin(f, static_cast<Index>(k)) = phase * (layout_.turned ? ::j1(phase) : std::sin(phase));
                     }
                 }
             }
@@ -248,6 +252,11 @@ Span spanOf(const GroundTruth& truth) {
 constexpr int per_octave = 4;
 constexpr double lowest = 0.05, highest = 20;
 
+// What is built stands upright: of its edges so many more lie along the axes of the picture [Torralba2003], as part of
+// all others. Left out, the taps err by a quarter more on an upright edge than those of the line do, which are exact
+// for it.
+constexpr double upright = 0.25;
+
 // Power of edges in all directions falls as omega^-3, below one edge per `feature` no more; the circle's omega and
 // d omega = omega d ln omega make it 1 / omega. Root of the sum: a smooth corner.
 double powerOf(double omega, double feature) {
@@ -268,6 +277,7 @@ std::vector<Probe> planeProbes(const GroundTruth& truth, const std::array<LineKe
             probes.push_back({omega * std::cos(angle), omega * std::sin(angle),
                               std::sqrt(powerOf(omega, feature) / directions), target});
         }
+        if (!turned) probes.push_back({omega, 0, std::sqrt(upright * powerOf(omega, feature)), target});
     }
     return probes;
 }

@@ -1,4 +1,4 @@
-// Figures of papers, made again: a paper is one file paper_x.cpp and one line in papers.cpp.
+// Figures of papers, made again: a paper is a file paper_x.cpp, or a few, and one line in papers.cpp.
 #pragma once
 
 #include <cstdint>
