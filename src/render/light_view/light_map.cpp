@@ -13,8 +13,10 @@ namespace searchlight {
 
 namespace {
 
-// What is seen at less has no area that a texel could tell; its light, which grazes it, is as little.
+// What is seen at less has no area that a texel could tell.
 constexpr double least_cosine = 0.05;
+// Places on triangles that are not seen stand no further apart than this part of the object's longest side.
+constexpr double grazed_spacing = 1.0 / 128;
 // A point light nearer to the object's centre, in radii of its bounding sphere, would need a map wider than 110
 // degrees.
 constexpr double least_distance = 1.22;
@@ -167,6 +169,60 @@ bool lightUp(const RenderInput& input, const Scene& scene, LightView& view, Obse
     return lit;
 }
 
+// Places on the triangles that a view does not see but whose corners may be lit: middles of equal parts.
+PointCloud grazedPlaces(const Object& object, const LightMap& map) {
+    const Mesh& mesh = object.mesh;
+    PointCloud places;
+    for (const auto& triangle : mesh.triangles) {
+        std::array<Vec3, 3> p, n;
+        for (std::size_t k = 0; k < 3; ++k) {
+            p[k] = toDouble(mesh.positions[triangle[k]]);
+            n[k] = toDouble(mesh.normals[triangle[k]]);
+        }
+        const Vec3 twice = cross(p[1] - p[0], p[2] - p[0]), to_light = towardsLight(map, p[0]);
+        const double area = 0.5 * length(twice);
+        if (!(area > 0) || dot(twice, to_light) >= 2 * area * least_cosine) continue;
+        if (std::ranges::none_of(n, [&](Vec3 corner) { return dot(corner, to_light) > 0; })) continue;
+        const double longest = std::max({length(p[1] - p[0]), length(p[2] - p[1]), length(p[0] - p[2])});
+        const int parts =
+            std::clamp(static_cast<int>(std::ceil(longest / (grazed_spacing * object.longest_mm))), 1, 64);
+        const auto add = [&](double u, double v) {
+            const auto at = [&](const std::array<Vec3, 3>& of) {
+                return of[0] + u * (of[1] - of[0]) + v * (of[2] - of[0]);
+            };
+            const Vec3 normal = at(n);
+            const double size = length(normal);
+            if (!(size > 1e-6)) return;
+            places.positions.push_back(toFloat(at(p)));
+            places.normals.push_back(toFloat((1 / size) * normal));
+            places.areas.push_back(static_cast<float>(area / (parts * parts)));
+        };
+        for (int i = 0; i < parts; ++i)
+            for (int j = 0; i + j < parts; ++j) {
+                add((i + 1 / 3.0) / parts, (j + 1 / 3.0) / parts);
+                if (i + j + 1 < parts) add((i + 2 / 3.0) / parts, (j + 2 / 3.0) / parts);
+            }
+    }
+    return places;
+}
+
+void addGrazed(const RenderInput& input, const Scene& scene, const LightMap& map, Observer& observer, LightMaps& to) {
+    const PointCloud places = grazedPlaces(*input.object, map);
+    if (places.positions.empty()) return;
+    IrradianceOptions options = input.light;
+    options.beams = false;
+    const std::vector<Rgbf> light =
+        computeIrradiance({places.positions, places.normals}, scene, *input.object, input.rays, options, observer)
+            .transmitted;
+    for (std::size_t i = 0; i < light.size(); ++i) {
+        if (light[i] == Rgbf{}) continue;
+        to.grazed.positions.push_back(places.positions[i]);
+        to.grazed.normals.push_back(places.normals[i]);
+        to.grazed.areas.push_back(places.areas[i]);
+        to.grazed_light.push_back(light[i]);
+    }
+}
+
 // Where a light looks from, if it does.
 struct Place {
     bool has_view = false;
@@ -214,6 +270,7 @@ LightMaps lightMaps(const RenderInput& input, int resolution, Observer& observer
         Scene scene = *input.scene;
         scene.lights = {light};
         LightView view = viewOf(place.frame, input, resolution, observer);
+        addGrazed(input, scene, view.map, observer, result);
         if (lightUp(input, scene, view, observer, [](std::size_t) { return true; })) keep(view);
     }
     result.spread_lights = static_cast<int>(spread.lights.size());
