@@ -138,7 +138,7 @@ std::string winnersText(const ContestPlan& plan, const std::vector<BackendStandi
         if (at_once)
             times.push_back(fmt::format("at all times{}", device));
         else if (each.model_from_ms > 0)
-            times.push_back(fmt::format("from {} on{}", durationText(each.model_from_ms), device));
+            times.push_back(fmt::format("after {}{}", durationText(each.model_from_ms), device));
         else
             times.push_back(fmt::format("never{}", device));
     }
