@@ -187,7 +187,7 @@ Pictures shapePictures(const PaperRun& run, const Subject& subject) {
     for (const std::string& shape : shapes) {
         run.observer.log(LogLevel::info, fmt::format("{}, {}", subject.name, shape));
         const LitBody body(sceneOf(shape, shape_mm, {DirectionalLight{.direction = side_light}}), subject.medium,
-                           bodyOptions(run, 160, 16), run.observer);
+                           bodyOptions(run, 160, 24), run.observer);
         addPictures(run, body, run.walks / samples.size(), pictures);
     }
     return pictures;
@@ -270,7 +270,7 @@ const Vec3 rim_light{-0.9, 0.8, -0.6};
 Pictures scanPictures(const PaperRun& run, const Subject& subject, std::uint64_t walks) {
     run.observer.log(LogLevel::info, fmt::format("{}, {}", subject.name, run.object));
     const LitBody body(sceneOf(run.object, scan_mm, {DirectionalLight{.direction = rim_light}}), subject.medium,
-                       bodyOptions(run, 256, 12), run.observer);
+                       bodyOptions(run, 256, 18), run.observer);
     Pictures pictures;
     addPictures(run, body, walks, pictures);
     return pictures;

@@ -161,7 +161,7 @@ PaperPlate figure11(const PaperRun& run) {
     for (const std::string& material : materials) {
         const Subject subject = subjectNamed(run, material);
         run.observer.log(LogLevel::info, fmt::format("{}, {}", subject.name, run.object));
-        LitBodyOptions options = bodyOptions(run, 192, 12);
+        LitBodyOptions options = bodyOptions(run, 192, 18);
         options.points = 20'000;  // each has the light of up to 17 or 128 directions
         const LitBody body(sceneOf(run.object, scan_mm, environmentLights(run)), subject.medium, options, run.observer);
         const std::uint64_t walks = run.walks / materials.size();
@@ -200,7 +200,7 @@ PaperPlate figure14(const PaperRun& run) {
         const Subject subject = subjectNamed(run, material);
         run.observer.log(LogLevel::info, fmt::format("{}, {}", subject.name, run.object));
         const LitBody body(sceneOf(run.object, scan_mm, {DirectionalLight{.direction = light}}), subject.medium,
-                           bodyOptions(run, 256, 12), run.observer);
+                           bodyOptions(run, 256, 18), run.observer);
         const WalkedBody walked = walkBodyTwice(run, body, run.walks / 2);
         const FirstExitance first = firstExitance(run, body, run.walks / 2);
         const std::vector<SphereExitance> models = exitanceOf(run, body, variants, first);
@@ -250,7 +250,7 @@ PaperPlate figure15(const PaperRun& run) {
     for (const std::string material : {"white_grapefruit_juice", "marble"}) {
         const Subject subject = subjectNamed(run, material);
         run.observer.log(LogLevel::info, fmt::format("{}, {}", subject.name, run.object));
-        LitBodyOptions options = bodyOptions(run, 192, 12);
+        LitBodyOptions options = bodyOptions(run, 192, 18);
         options.points = 20'000;
         const LitBody body(sceneOf(run.object, scan_mm, environmentLights(run)), subject.medium, options, run.observer);
         const WalkedBody walked = walkBodyTwice(run, body, run.walks / 2);

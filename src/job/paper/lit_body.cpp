@@ -21,6 +21,14 @@ constexpr int points_per_cell = 4;
 // Of the hierarchical sum, far below the noise of any reference here.
 constexpr double sum_error = 0.005;
 
+// Closer than the default, which leaves room around the object: pictures on a sheet have room of their own.
+View viewOf(const Scene& scene, const Object& object, const LitBodyOptions& options) {
+    constexpr double closer = 0.78;
+    Camera camera = framedCamera(scene.camera, object, options.width, options.height);
+    if (scene.camera.distance == 0) camera.distance *= closer;
+    return makeView(camera, object, options.width, options.height);
+}
+
 MeshBody bodyOf(const Object& object, const Medium& medium, const View& camera, const LitBodyOptions& options) {
     const double pixel = 2 * camera.tan_half / camera.height * length(camera.eye);
     const Rgb sigma_t = medium.sigmaT();
@@ -54,7 +62,7 @@ LitBody::LitBody(Scene scene, const Medium& medium, const LitBodyOptions& option
       options_(options),
       object_(placeObject(scene_)),
       lights_(scene_, object_),
-      camera_(makeView(scene_.camera, object_, options.width, options.height)),
+      camera_(viewOf(scene_, object_, options)),
       rays_(object_.mesh),
       body_(bodyOf(object_, medium, camera_, options)),
       view_(cellView(camera_, body_, medium.eta, options.threads)) {
@@ -102,15 +110,11 @@ FirstExitance LitBody::firstOrders(std::uint64_t walks, Observer& observer) cons
         first.single.standard_error[channel] = std::move(own.single_error);
         first.unscattered.mean[channel] = std::move(own.unscattered);
         first.unscattered.standard_error[channel] = std::move(own.unscattered_error);
-        FirstOrders other = walkFirstOrders(body_, similar, c, &lights_, options, observer);
+        FirstOrders other = walkFirstOrders(body_, similar, c, &lights_, options, observer, false);
         first.unscattered_similar.mean[channel] = std::move(other.unscattered);
         first.unscattered_similar.standard_error[channel] = std::move(other.unscattered_error);
     }
     return first;
-}
-
-bool LitBody::hasSingle(const BodyModel& model, Engine& engine, const std::string& backend, const Medium& medium) {
-    return load(model, engine, backend, medium).model.file.single_scattering;
 }
 
 SphereExitance LitBody::model(const BodyModel& model, Engine& engine, const std::string& backend,

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -59,8 +58,6 @@ public:
     /// By the hierarchical sum to half a percent, which is the standard error that is not stated here: it holds 0.
     /// Throws what loading and summing throw.
     SphereExitance model(const BodyModel& model, Engine& engine, const std::string& backend, Observer& observer) const;
-    /// Whether single scattering is part of the model.
-    static bool hasSingle(const BodyModel& model, Engine& engine, const std::string& backend, const Medium& medium);
 
     /// Mean normal of each cell that is seen; zero for the others.
     const std::vector<Vec3>& normals() const { return normals_; }

@@ -41,7 +41,7 @@ WalkedBody walkBodyTwice(const PaperRun& run, const LitBody& body, std::uint64_t
 }
 
 FirstExitance firstExitance(const PaperRun& run, const LitBody& body, std::uint64_t walks) {
-    return body.firstOrders(std::max<std::uint64_t>(1, walks / 8), run.observer);
+    return body.firstOrders(walks, run.observer);
 }
 
 NoisyImage noisyImage(const LitBody& body, const SphereExitance& exitance) {

@@ -38,7 +38,8 @@ struct WalkedBody {
 /// About so many walks per channel, of which each half has a seed of its own.
 WalkedBody walkBodyTwice(const PaperRun& run, const LitBody& body, std::uint64_t walks);
 
-/// By an eighth of the walks of the reference: nothing is left to chance but places, so that they are less noisy.
+/// By as many walks as the reference: each of them leaves a small part of its flux and not all or nothing, so that the
+/// sum is far less noisy.
 FirstExitance firstExitance(const PaperRun& run, const LitBody& body, std::uint64_t walks);
 
 NoisyImage noisyImage(const LitBody& body, const SphereExitance& exitance);

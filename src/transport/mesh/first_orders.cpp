@@ -73,12 +73,13 @@ struct Beam {
 
 class Walk {
 public:
-    Walk(const MeshBody& body, const Medium& medium, int channel, Chunk& chunk, SplitMix64 random)
+    Walk(const MeshBody& body, const Medium& medium, int channel, bool scatters, Chunk& chunk, SplitMix64 random)
         : body_(body),
           sigma_t_(medium.sigmaT()[channel]),
           albedo_(medium.sigma_s[channel] / sigma_t_),
           g_(medium.g[channel]),
           eta_(medium.eta),
+          scatters_(scatters),
           reach_(4 * body.rays().extent()),
           chunk_(chunk),
           random_(random) {}
@@ -90,7 +91,7 @@ public:
 
 private:
     // To the surface and on by reflection, until nothing is left.
-    void follow(Beam beam, bool scatters) {
+    void follow(Beam beam, bool is_first) {
         while (goesOn(beam)) {
             const Ray flight{beam.position, toFloat(beam.direction), 0, reach_};
             Crossing crossing;
@@ -98,13 +99,13 @@ private:
             if (crossing.what != Crossing::What::surface) return;
             const double leg = length(toDouble(crossing.position) - toDouble(beam.position));
             const double passed = std::exp(-sigma_t_ * leg);
-            if (scatters) scatter(beam, passed);
+            if (is_first && scatters_) scatter(beam, passed);
             beam.weight *= passed;
             const double cosine = std::min(1.0, dot(beam.direction, crossing.normal));
             if (!(cosine > 0)) return;  // grazing, by rounding
             const double mirrored = eta_ == 1 ? 0 : internalReflectance(eta_, cosine);
             if (mirrored < 1)
-                (scatters ? chunk_.unscattered : chunk_.single)
+                (is_first ? chunk_.unscattered : chunk_.single)
                     .push_back({crossing.cell, static_cast<float>((1 - mirrored) * beam.weight)});
             beam.weight *= mirrored;
             beam.position = crossing.inside;
@@ -132,6 +133,7 @@ private:
 
     const MeshBody& body_;
     double sigma_t_, albedo_, g_, eta_;
+    bool scatters_;
     float reach_;
     Chunk& chunk_;
     SplitMix64 random_;
@@ -150,7 +152,7 @@ void addUp(std::span<const CellExit> exits, std::vector<double>& sums, std::vect
 }  // namespace
 
 FirstOrders walkFirstOrders(const MeshBody& body, const Medium& medium, int channel, const Illumination& light,
-                            const BodyOptions& options, Observer& observer) {
+                            const BodyOptions& options, Observer& observer, bool single) {
     checkMedium(medium);
     if (options.walks == 0) throw inputError("a reference needs at least one walk");
     if (!medium.scatters(channel)) throw inputError("the medium does not scatter in this channel");
@@ -166,7 +168,7 @@ FirstOrders walkFirstOrders(const MeshBody& body, const Medium& medium, int chan
         // Streams of their own: neither another channel's nor those of walkBody().
         SplitMix64 seeds = streamOf(~options.seed, 4 * i + static_cast<std::uint64_t>(channel));
         EntrySource<MeshBody> source(body, light, entry, tried, SplitMix64(seeds.next()));
-        Walk walk(body, medium, channel, chunks[i], SplitMix64(seeds.next()));
+        Walk walk(body, medium, channel, single, chunks[i], SplitMix64(seeds.next()));
         for (Entry next; source.next(next);) walk.follow(next);
         chunks[i].candidates = source.tried();
         observer.progress("single scattering", ++done, chunk_count, "chunks");

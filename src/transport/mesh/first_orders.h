@@ -17,8 +17,9 @@ struct FirstOrders {
 
 /// Walks `options.walks` beams, about, as walkBody() lets them enter: each is followed through its reflections from
 /// inside, deposits what leaves of it, and scatters once on each leg, with its flux as the weight. No loss by roulette
-/// but below 1e-3 of what entered. The result does not depend on threads. Throws as walkBody().
+/// but below 1e-3 of what entered. `single`: false leaves single scattering 0. The result does not depend on threads.
+/// Throws as walkBody().
 FirstOrders walkFirstOrders(const MeshBody& body, const Medium& medium, int channel, const Illumination& light,
-                            const BodyOptions& options, Observer& observer);
+                            const BodyOptions& options, Observer& observer, bool single = true);
 
 }  // namespace searchlight
