@@ -136,6 +136,16 @@ TEST_F(Program, ProcessesShareTheWalksOfAReference) {
         for (json* document : {&from_one, &from_three}) document->erase("seconds");
         EXPECT_EQ(from_three, from_one) << body;
     }
+    writeFile(folder() / "layers.json",
+              R"({"format": "searchlight-layers/1", "n_above": 1, "n_below": 1, "layers": [
+                  {"n": 1.5, "sigma_a": 0.05, "sigma_s": 2, "g": 0, "thickness_mm": 1}]})");
+    const std::string slab = "reference slab --layers layers.json --walks 1e5 --json";
+    const Output alone = run(slab), shared = run(slab, mpirun);
+    ASSERT_EQ(shared.exit_code, 0) << shared.err;
+    json from_one = json::parse(alone.out), from_three = json::parse(shared.out);
+    EXPECT_EQ(from_one.at("estimator"), "best");
+    for (json* document : {&from_one, &from_three}) document->erase("seconds");
+    EXPECT_EQ(from_three, from_one);
     const Output wrong = run(half_space + "--walks 0", mpirun);
     EXPECT_NE(wrong.exit_code, 0);
     EXPECT_THAT(wrong.err, HasSubstr("searchlight: "));

@@ -31,6 +31,7 @@
 #define HWY_TARGET_INCLUDE "transport/half_space/guided_walk.cpp"
 #include <hwy/foreach_target.h>
 
+#include "transport/walk/lane_foresee-inl.h"
 #include "transport/walk/lane_walk-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -82,21 +83,6 @@ private:
         FloatV p = set(powers[3]);
         for (std::size_t i = 3; i-- > 0;) p = hn::MulAdd(p, w, set(powers[i]));
         return p;
-    }
-
-    static HWY_INLINE std::uint64_t bitsOf(FloatM mask, std::size_t at) {
-        std::uint8_t bytes[8] = {};
-        hn::StoreMaskBits(Float(), mask, bytes);
-        std::uint64_t bits = 0;
-        std::memcpy(&bits, bytes, sizeof bits);
-        return (bits & ((std::uint64_t{1} << hn::Lanes(Float())) - 1)) << at;
-    }
-
-    static HWY_INLINE FloatM maskOf(std::uint64_t bits, std::size_t at) {
-        bits >>= at;
-        std::uint8_t bytes[8];
-        std::memcpy(bytes, &bits, sizeof bits);
-        return hn::LoadMaskBits(Float(), bytes);
     }
 
     // Proposes a direction to each walk; those that take it scatter and fly on as if there were no surface, the others

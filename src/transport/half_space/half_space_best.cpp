@@ -32,18 +32,8 @@ HWY_BEFORE_NAMESPACE();
 namespace searchlight {
 namespace HWY_NAMESPACE {
 
-// The histogram is kept once for each lane of the widest vectors and each deposit of a collision: no addition meets
-// another one on its way. Those of four packs are shared.
-constexpr std::size_t kCopies = 16;
-// Floats hold no more than so many additions a pack; of more bins each is met less often.
-constexpr std::size_t kFlushSteps = 256;
-// Without absorption a walk has no mean length: beyond so many collisions its importance falls as their inverse.
-constexpr std::int32_t kFadingWalk = 1 << 13;
-constexpr float kSplit = 2.0f;
-constexpr float kMostParts = 16;
 // A flight that is drawn longer is so many times as long.
 constexpr double kStretch = 3;
-static_assert(kSplit >= 2, "a split makes at least two parts");
 
 struct alignas(64) BestLanes {
     float x[kLanes], y[kLanes], z[kLanes];  // of the collision to come, z grows into the medium
@@ -223,20 +213,12 @@ private:
         } else {
             const FloatV across = hn::MulAdd(hn::Set(d, ways_.u[way]), pack.direction.u,
                                              hn::Mul(hn::Set(d, ways_.v[way]), pack.direction.v));
-            const FloatV up = hn::Mul(hn::Set(d, ways_.w[way]), pack.direction.w);
-            deposit<0>(pack, at, hn::Add(pack.x, dx), hn::Add(pack.y, dy), hn::Mul(leaves, phase(hn::Sub(across, up))));
+            const FloatV up = hn::Mul(hn::Set(d, ways_.w[way]), pack.direction.w), g = set(plan_.walk.g);
+            deposit<0>(pack, at, hn::Add(pack.x, dx), hn::Add(pack.y, dy),
+                       hn::Mul(leaves, henyeyGreensteinGain(g, hn::Sub(across, up))));
             deposit<1>(pack, at, hn::Sub(pack.x, dx), hn::Sub(pack.y, dy),
-                       hn::Mul(leaves, phase(hn::Neg(hn::Add(across, up)))));
+                       hn::Mul(leaves, henyeyGreensteinGain(g, hn::Neg(hn::Add(across, up)))));
         }
-    }
-
-    // [HenyeyGreenstein1941], relative to isotropic scattering.
-    HWY_INLINE FloatV phase(FloatV cosine) const {
-        const Float d;
-        const double g = plan_.walk.g;
-        const FloatV q =
-            hn::NegMulAdd(hn::Set(d, static_cast<float>(2 * g)), cosine, hn::Set(d, static_cast<float>(1 + g * g)));
-        return hn::Div(hn::Set(d, static_cast<float>((1 - g) * (1 + g))), hn::Mul(q, hn::Sqrt(q)));
     }
 
     // `weight` leaves at (x, y); kWay is one of the collision's.
@@ -261,11 +243,7 @@ private:
             addMoment(2, at, wx);
             addMoment(3, at, wr2);
         }
-        const IntV stride = hn::Set(di, static_cast<int>(stride_));
-        const IntV copy = hn::Iota(di, static_cast<int>(at % kCopies));
-        float* histogram = histogram_.data() + kWay * kCopies * stride_;
-        const IntV index = hn::Add(slot, hn::Mul(copy, stride));
-        hn::ScatterIndex(hn::Add(hn::GatherIndex(d, histogram, index), weight), d, histogram, index);
+        addToCopies(histogram_.data() + kWay * kCopies * stride_, stride_, at, slot, weight);
     }
 
     HWY_INLINE void addMoment(std::size_t which, std::size_t at, FloatV value) {
@@ -278,31 +256,17 @@ private:
         const Float d;
         const Int di;
         const FloatV offset = hn::Set(d, plan_.importance.offset);
-        const auto cell = [&](FloatV square) {
-            constexpr int shift = 23 - ImportanceTable::kMantissaBits;
-            const IntV bits = hn::Sub(hn::BitCast(di, square), hn::BitCast(di, offset));
-            return hn::Min(hn::ShiftRight<shift>(bits), hn::Set(di, ImportanceTable::kCells - 1));
-        };
-        const IntV column = cell(hn::MulAdd(pack.x, pack.x, hn::MulAdd(pack.y, pack.y, offset)));
-        const IntV row = cell(hn::MulAdd(pack.z, pack.z, offset));
+        constexpr int last = ImportanceTable::kCells - 1, bits = ImportanceTable::kMantissaBits;
+        const FloatV rho2 = hn::MulAdd(pack.x, pack.x, hn::MulAdd(pack.y, pack.y, offset));
+        const IntV column = logarithmicCell<bits>(rho2, offset, last);
+        const IntV row = logarithmicCell<bits>(hn::MulAdd(pack.z, pack.z, offset), offset, last);
         const IntV index = hn::Add(hn::Mul(row, hn::Set(di, ImportanceTable::kCells)), column);
-        const FloatV importance = hn::GatherIndex(d, plan_.importance.value.data(), index);
-        const hn::Mask<Int> is_long = hn::Gt(pack.order, hn::Set(di, kFadingWalk));
-        if (HWY_LIKELY(hn::AllFalse(di, is_long))) return importance;
-        const FloatV fade = hn::Div(hn::Set(d, static_cast<float>(kFadingWalk)), hn::ConvertTo(d, pack.order));
-        return hn::IfThenElse(hn::RebindMask(d, is_long), hn::Mul(importance, fade), importance);
+        return faded(hn::GatherIndex(d, plan_.importance.value.data(), index), pack.order);
     }
 
     HWY_NOINLINE void flush() {
-        for (std::size_t copy = 0; copy < kWays * kCopies; ++copy) {
-            float* from = histogram_.data() + copy * stride_;
-            const std::size_t count = plan_.single ? slots_ : 2 * slots_;
-            double* to = sums_.data() + (plan_.single ? slots_ : 0);
-            for (std::size_t i = 0; i < count; ++i) {
-                to[i] += static_cast<double>(from[i]);
-                from[i] = 0;
-            }
-        }
+        const std::size_t known = plan_.single ? slots_ : 0;
+        emptyCopies(histogram_, stride_, sums_.data() + known, 2 * slots_ - known);
         for (std::size_t which = 0; which < 4; ++which)
             for (float& moment : lanes_.moments[which]) {
                 moments_[which] += static_cast<double>(moment);

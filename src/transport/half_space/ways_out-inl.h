@@ -11,6 +11,7 @@
 
 #include "transport/half_space/half_space_walk.h"
 #include "transport/walk/fresnel.h"
+#include "transport/walk/lane_foresee-inl.h"
 #include "transport/walk/lane_scatter-inl.h"
 #include "transport/walk/random.h"
 
@@ -19,7 +20,7 @@ namespace searchlight {
 namespace HWY_NAMESPACE {
 
 /// Directions inside the escape cone. Each is random by itself, uniform in cosine and azimuth; all together are spread
-/// evenly, by the sequence of [Roberts2018] from a random start. So what is foreseen along any of them is unbiased,
+/// evenly. So what is foreseen along any of them is unbiased,
 /// what is foreseen along all has little noise from them, and their roots and quotients are paid once for many
 /// collisions.
 class WaysOut {
@@ -27,9 +28,9 @@ public:
     static constexpr std::size_t kCount = 64;
 
     WaysOut(const HalfSpaceWalk& walk, SplitMix64& random)
-        : critical_(static_cast<float>(criticalCosine(walk.eta))), eta_(static_cast<float>(walk.eta)) {
-        for (std::uint32_t& next : next_) next = static_cast<std::uint32_t>(random.next() >> 32);
-    }
+        : critical_(static_cast<float>(criticalCosine(walk.eta))),
+          eta_(static_cast<float>(walk.eta)),
+          sequence_(random) {}
 
     /// The next kCount ways.
     HWY_NOINLINE void renew() {
@@ -37,10 +38,11 @@ public:
         const FloatV one = hn::Set(d, 1.0f), zero = hn::Zero(d), eta = hn::Set(d, eta_);
         const FloatV range = hn::Set(d, 1 - critical_);
         for (std::size_t at = 0; at < kCount; at += hn::Lanes(d)) {
-            const FloatV mu = hn::MulAdd(range, hn::MulAdd(signedUniform(draw(0)), hn::Set(d, 0.5f), hn::Set(d, 0.5f)),
-                                         hn::Set(d, critical_));
+            const FloatV mu =
+                hn::MulAdd(range, hn::MulAdd(signedUniform(sequence_.draw(0)), hn::Set(d, 0.5f), hn::Set(d, 0.5f)),
+                           hn::Set(d, critical_));
             const FloatV sine = hn::Sqrt(hn::Max(hn::NegMulAdd(mu, mu, one), zero));
-            const Azimuth phi = azimuth(draw(1));
+            const Azimuth phi = azimuth(sequence_.draw(1));
             const FloatV inverse = hn::Div(one, hn::Max(mu, hn::Set(d, 1e-9f)));
             const FloatV across_x = hn::Mul(sine, phi.cos), across_y = hn::Mul(sine, phi.sin);
             hn::Store(inverse, d, path + at);
@@ -63,19 +65,8 @@ public:
     alignas(64) float w[kCount];      ///< of it; positive is up
 
 private:
-    // One step of every lane along a dimension of the sequence: the inverse plastic number and its square.
-    HWY_INLINE IntV draw(std::size_t dimension) {
-        constexpr std::uint32_t steps[] = {3242174889u, 2447445415u};
-        const Int di;
-        const auto step = static_cast<std::int32_t>(steps[dimension]);
-        const IntV bits = hn::Add(hn::Mul(hn::Iota(di, 0), hn::Set(di, step)),
-                                  hn::Set(di, static_cast<std::int32_t>(next_[dimension])));
-        next_[dimension] += static_cast<std::uint32_t>(hn::Lanes(di)) * steps[dimension];
-        return bits;
-    }
-
     float critical_, eta_;
-    std::uint32_t next_[2];
+    EvenSequence sequence_;
 };
 
 }  // namespace HWY_NAMESPACE

@@ -31,11 +31,7 @@ namespace searchlight {
 namespace HWY_NAMESPACE {
 namespace {
 
-// As in half_space_best.cpp, for the same reasons.
-constexpr std::size_t kCopies = 16;
-constexpr std::size_t kFlushSteps = 256;
-constexpr std::int32_t kFadingWalk = 1 << 13;
-constexpr float kRoulette = 0.6f, kSplit = 2.0f, kMostParts = 16;
+constexpr float kRoulette = 0.6f;
 // Up to so many collisions walks keep their weight: where little is scattered, few would be left to tell of what is
 // scattered twice.
 constexpr std::int32_t kUnjudged = 2;
@@ -266,23 +262,15 @@ private:
             const FloatV across = hn::MulAdd(get(ways.u), pack.direction.u, hn::Mul(get(ways.v), pack.direction.v));
             const FloatV along = hn::Mul(kSide == up ? hn::Neg(get(ways.w)) : get(ways.w), pack.direction.w);
             const FloatV g = of(g_, pack.layer);
-            one = hn::Mul(leaves, phase(g, hn::Add(along, across)));
-            other = hn::Mul(leaves, phase(g, hn::Sub(along, across)));
+            one = hn::Mul(leaves, henyeyGreensteinGain(g, hn::Add(along, across)));
+            other = hn::Mul(leaves, henyeyGreensteinGain(g, hn::Sub(along, across)));
         }
         deposit<2 * kSide>(pack, at, hn::Add(pack.x, dx), hn::Add(pack.y, dy), one);
         deposit<2 * kSide + 1>(pack, at, hn::Sub(pack.x, dx), hn::Sub(pack.y, dy), other);
     }
 
-    // [HenyeyGreenstein1941], relative to isotropic scattering.
-    static HWY_INLINE FloatV phase(FloatV g, FloatV cosine) {
-        const FloatV one = hn::Set(Float(), 1.0f), g2 = hn::Mul(g, g);
-        const FloatV q = hn::NegMulAdd(hn::Add(g, g), cosine, hn::Add(one, g2));
-        return hn::Div(hn::Sub(one, g2), hn::Mul(q, hn::Sqrt(q)));
-    }
-
     template <std::size_t kWay>
     HWY_INLINE void deposit(const SlabBestPack& pack, std::size_t at, FloatV x, FloatV y, FloatV weight) {
-        const Float d;
         const Int di;
         IntV slot = slotOf(plan_.bins, hn::MulAdd(x, x, hn::Mul(y, y)));
         const auto slots = static_cast<int>(slots_);
@@ -290,10 +278,7 @@ private:
             slot = hn::Add(slot, hn::IfThenZeroElse(hn::Eq(pack.order, hn::Set(di, 1)), hn::Set(di, slots)));
         else
             slot = hn::Add(slot, hn::Set(di, 2 * slots));
-        const IntV copy = hn::Iota(di, static_cast<int>(at % kCopies));
-        float* histogram = histogram_.data() + kWay * kCopies * stride_;
-        const IntV index = hn::Add(hn::Mul(copy, hn::Set(di, static_cast<int>(stride_))), slot);
-        hn::ScatterIndex(hn::Add(hn::GatherIndex(d, histogram, index), weight), d, histogram, index);
+        addToCopies(histogram_.data() + kWay * kCopies * stride_, stride_, at, slot, weight);
     }
 
     // Takes walks to the interface that they would cross, and beyond or back.
@@ -351,20 +336,15 @@ private:
         const Float d;
         const Int di;
         const FloatV offset = hn::Set(d, plan_.importance.offset);
-        constexpr int shift = 23 - SlabImportance::kMantissaBits;
         const FloatV square = hn::MulAdd(pack.x, pack.x, hn::MulAdd(pack.y, pack.y, offset));
-        const IntV bits = hn::Sub(hn::BitCast(di, square), hn::BitCast(di, offset));
-        const IntV column = hn::Min(hn::ShiftRight<shift>(bits), hn::Set(di, SlabImportance::kColumns - 1));
+        const IntV column =
+            logarithmicCell<SlabImportance::kMantissaBits>(square, offset, SlabImportance::kColumns - 1);
         const IntV last = of(last_row_, pack.layer);
         // The conversion has to stay defined in a layer without end.
         const FloatV place = hn::Min(hn::Mul(pack.z, of(rows_per_mm_, pack.layer)), hn::Set(d, 1e6f));
         const IntV row = hn::Add(of(first_row_, pack.layer), hn::Min(hn::ConvertTo(di, place), last));
         const IntV index = hn::Add(hn::Mul(row, hn::Set(di, SlabImportance::kColumns)), column);
-        const FloatV importance = hn::GatherIndex(d, plan_.importance.value.data(), index);
-        const hn::Mask<Int> is_long = hn::Gt(pack.order, hn::Set(di, kFadingWalk));
-        if (HWY_LIKELY(hn::AllFalse(di, is_long))) return importance;
-        const FloatV fade = hn::Div(hn::Set(d, static_cast<float>(kFadingWalk)), hn::ConvertTo(d, pack.order));
-        return hn::IfThenElse(hn::RebindMask(d, is_long), hn::Mul(importance, fade), importance);
+        return faded(hn::GatherIndex(d, plan_.importance.value.data(), index), pack.order);
     }
 
     // Exits that no collision had foreseen.
@@ -383,15 +363,7 @@ private:
         exits_.count = 0;
     }
 
-    HWY_NOINLINE void flush() {
-        for (std::size_t copy = 0; copy < 2 * sides * kCopies; ++copy) {
-            float* from = histogram_.data() + copy * stride_;
-            for (std::size_t i = 0; i < flux_.size(); ++i) {
-                flux_[i] += static_cast<double>(from[i]);
-                from[i] = 0;
-            }
-        }
-    }
+    HWY_NOINLINE void flush() { emptyCopies(histogram_, stride_, flux_.data(), flux_.size()); }
 
     HWY_NOINLINE void splitWalks() {
         for (std::uint64_t bits = split_; bits != 0; bits &= bits - 1) {

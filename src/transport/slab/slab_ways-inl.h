@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "transport/slab/slab_walk.h"
+#include "transport/walk/lane_foresee-inl.h"
 #include "transport/walk/lane_scatter-inl.h"
 #include "transport/walk/random.h"
 
@@ -21,15 +22,14 @@ namespace searchlight {
 namespace HWY_NAMESPACE {
 
 /// From every layer through one side of the slab, without a reflection: directions inside the cone that passes all
-/// interfaces on the way, each uniform in cosine and azimuth, together spread evenly by the sequence of [Roberts2018].
+/// interfaces on the way, each uniform in cosine and azimuth, together spread evenly.
 /// Entry i of layer j is at j kCount + i. The layers share their random numbers.
 class SlabWays {
 public:
     static constexpr std::size_t kCount = 64;
 
     /// up: through the top.
-    SlabWays(const SlabWalk& walk, bool up, SplitMix64& random) {
-        for (std::uint32_t& next : next_) next = static_cast<std::uint32_t>(random.next() >> 32);
+    SlabWays(const SlabWalk& walk, bool up, SplitMix64& random) : sequence_(random) {
         const std::size_t layers = walk.layers.size();
         for (std::vector<float>* field : {&path, &tau, &x, &y, &x_beyond, &y_beyond, &share, &u, &v, &w})
             field->assign(layers * kCount, 0);
@@ -62,8 +62,8 @@ public:
         const Float d;
         const FloatV one = hn::Set(d, 1.0f), half = hn::Set(d, 0.5f);
         for (std::size_t i = 0; i < kCount; i += hn::Lanes(d)) {
-            const FloatV place = hn::MulAdd(signedUniform(draw(0)), half, half);
-            const Azimuth phi = azimuth(draw(1));
+            const FloatV place = hn::MulAdd(signedUniform(sequence_.draw(0)), half, half);
+            const Azimuth phi = azimuth(sequence_.draw(1));
             for (std::size_t layer = 0; layer < from_.size(); ++layer) {
                 const From& from = from_[layer];
                 const std::size_t at = layer * kCount + i;
@@ -123,19 +123,8 @@ private:
         return hn::Div(hn::Set(d, 1.0f), hn::Max(cosine, hn::Set(d, 1e-9f)));
     }
 
-    // As in ways_out-inl.h.
-    HWY_INLINE IntV draw(std::size_t dimension) {
-        constexpr std::uint32_t steps[] = {3242174889u, 2447445415u};
-        const Int di;
-        const auto step = static_cast<std::int32_t>(steps[dimension]);
-        const IntV bits = hn::Add(hn::Mul(hn::Iota(di, 0), hn::Set(di, step)),
-                                  hn::Set(di, static_cast<std::int32_t>(next_[dimension])));
-        next_[dimension] += static_cast<std::uint32_t>(hn::Lanes(di)) * steps[dimension];
-        return bits;
-    }
-
     std::vector<From> from_;
-    std::uint32_t next_[2];
+    EvenSequence sequence_;
 };
 
 }  // namespace HWY_NAMESPACE
