@@ -62,8 +62,9 @@ TEST(LargeSteps, LeaveABallFromItsMiddleAsWalksDo) {
     Judge judge;
     SplitMix64 seeds(1);
     const Ball ball(1, 0.5);
-    // The largest step is a little shorter than the radius: what leaves is what the step left.
-    for (const auto& [g, sigma_t] : {std::pair{0.0, 11.5}, {0.8, 37.0}}) {
+    // Long steps count by their collisions. In the smaller balls the next flight after a step leaves, so that its
+    // direction counts.
+    for (const auto& [g, sigma_t] : {std::pair{0.0, 11.5}, {0.0, 4.2}, {0.8, 37.0}, {0.8, 8.5}}) {
         Estimate means[2][6];
         for (const bool steps : {false, true}) {
             double sum[6] = {}, squares[6] = {};
@@ -80,7 +81,8 @@ TEST(LargeSteps, LeaveABallFromItsMiddleAsWalksDo) {
                 means[steps][i] = {mean, std::sqrt((squares[i] / chunks - mean * mean) / (chunks - 1)), chunks};
             }
         }
-        for (int i = 0; i < 6; ++i) compare(judge, fmt::format("g {}, {}", g, names[i]), means[0][i], means[1][i]);
+        for (int i = 0; i < 6; ++i)
+            compare(judge, fmt::format("g {}, sigma_t {}, {}", g, sigma_t, names[i]), means[0][i], means[1][i]);
     }
     judge.expectAgreement();
 }
