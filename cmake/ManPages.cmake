@@ -6,6 +6,7 @@ cmake_path(GET PROGRAM FILENAME name)
 function(help_of result)
   execute_process(COMMAND ${PROGRAM} ${ARGN} --help OUTPUT_VARIABLE text RESULT_VARIABLE failed
     COMMAND_ERROR_IS_FATAL ANY)
+  string(REPLACE "${PROGRAM}" "${name}" text "${text}")
   # Whatever roff would take for its own.
   string(REPLACE "\\" "\\e" text "${text}")
   string(REPLACE "-" "\\-" text "${text}")

@@ -33,6 +33,16 @@ set(CPACK_PACKAGE_NAME searchlight)
 # Debian wants an address: whoever makes a package for others gives theirs, -DSEARCHLIGHT_PACKAGE_CONTACT="N <a@b>".
 set(SEARCHLIGHT_PACKAGE_CONTACT "Searchlight contributors" CACHE STRING "maintainer of the Debian package")
 set(CPACK_PACKAGE_CONTACT ${SEARCHLIGHT_PACKAGE_CONTACT})
+# What it reads beside ours.
+string(TIMESTAMP package_date "%a, %d %b %Y %H:%M:%S +0000" UTC)
+file(WRITE ${PROJECT_BINARY_DIR}/man/changelog "searchlight (${PROJECT_VERSION}) unstable; urgency=medium
+
+  * See CHANGELOG.md.
+
+ -- ${SEARCHLIGHT_PACKAGE_CONTACT}  ${package_date}
+")
+install(CODE "execute_process(COMMAND gzip -9nkf \"${PROJECT_BINARY_DIR}/man/changelog\" COMMAND_ERROR_IS_FATAL ANY)")
+install(FILES ${PROJECT_BINARY_DIR}/man/changelog.gz DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/searchlight)
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "laboratory for BSSRDFs: subsurface scattering models")
 set(CPACK_PACKAGE_DESCRIPTION "Develops, displays, compares and validates models of light in translucent
 things: any model with any technique, on one scene, beside a Monte Carlo

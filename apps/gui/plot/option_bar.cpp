@@ -14,7 +14,8 @@ namespace searchlight::gui {
 OptionBar::OptionBar(Desk& desk, std::string section, QWidget* parent)
     : QWidget(parent), desk_(desk), section_(std::move(section)) {
     row_ = new FlowRow(this);
-    row_->setContentsMargins(Space::s, Space::xs, Space::s, Space::xs);
+    // Nothing at the right: at 1280 pixels all tools of the plot stand in one row.
+    row_->setContentsMargins(Space::s, Space::xs, 0, Space::xs);
 }
 
 const Param& OptionBar::param(const std::string& option) const {

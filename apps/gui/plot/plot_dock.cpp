@@ -3,7 +3,6 @@
 #include <QApplication>
 #include <QClipboard>
 #include <QComboBox>
-#include <QDoubleSpinBox>
 #include <QFileDialog>
 #include <QLabel>
 #include <QMenu>
@@ -76,7 +75,7 @@ private:
         y_scale_ = bar->addChoice("y_scale", tr("Scale of R_d"), {tr("y linear"), tr("y log"), tr("y square root")});
         x_scale_ = bar->addChoice("x_scale", tr("Scale of r"), {tr("x linear"), tr("x log"), tr("x square root")});
         times_radius_ = bar->addChoice("times_radius", tr("Times radius"), {tr("R_d"), tr("R_d · r"), tr("R_d · r²")});
-        bar->addNumber("angle_deg", tr("Angle of incidence"), 0, 5)->setPrefix(tr("Beam at "));
+        bar->addNumber("angle_deg", tr("Angle of incidence"), 0, 5);
         bar->addChoice("walks", tr("Reference"),
                        {tr("No reference"), tr("10⁵ walks"), tr("10⁶ walks"), tr("10⁷ walks")});
         auto* more = new QToolButton(this);

@@ -166,11 +166,13 @@ QString ObjectView::statusText(bool spoken) const {
     const QString object = QString::fromStdString(state.scene.object).section('/', -1);
     QString text =
         tr("%1 of %2, %3 mm").arg(object, QString::fromStdString(shown.subject.name)).arg(state.scene.scale, 0, 'g', 4);
-    text += tr("  \u00b7  %1 points  \u00b7  %2 ms")
-                .arg(QLocale().toString(static_cast<qulonglong>(shown.report.points)))
-                .arg(shown.ms, 0, 'f', 0);
+    if (shown.report.points > 0)  // not every technique has any
+        text += tr("  \u00b7  %1 points").arg(QLocale().toString(static_cast<qulonglong>(shown.report.points)));
+    text += tr("  \u00b7  %1 ms").arg(shown.ms, 0, 'f', 0);
     if (shown.report.technique.error_bound > 0)
         text += tr("  \u00b7  error at most %1 %").arg(100 * shown.report.technique.error_bound, 0, 'g', 2);
+    if (shown.report.technique.standard_error > 0)
+        text += tr("  \u00b7  standard error %1 %").arg(100 * shown.report.technique.standard_error, 0, 'g', 2);
     const QString differs = differenceText(shown.differs);
     // Written above, beside what it is the difference from; here for those who hear it.
     if (spoken && comparing() && !differs.isEmpty()) text += "  \u00b7  " + differs;

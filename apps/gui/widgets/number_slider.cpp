@@ -104,7 +104,7 @@ NumberSlider::NumberSlider(Theme& theme, const QString& label, const QString& na
     field_->setAccessibleName(unit.isEmpty() ? name : tr("%1 in %2").arg(name, unit));
     field_->setToolTip(unit.isEmpty() ? name : tr("%1 in %2").arg(name, unit));
     grid->addWidget(field_, 0, column++);
-    auto* unit_label = new QLabel(unit, this);
+    auto* unit_label = new QLabel(unit == QLatin1String("deg") ? QStringLiteral("°") : unit, this);
     unit_label->setProperty("role", "muted");
     unit_label->setFixedWidth(36);
     grid->addWidget(unit_label, 0, column);
