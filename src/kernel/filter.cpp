@@ -115,12 +115,13 @@ Image pass(const Image& image, const TapTerm& term, bool second, const FilterOpt
 }  // namespace
 
 double turnOfPixel(double x, double y, int frame, bool second) {
-    // Frames shift the pattern along a line that comes back to no place soon; second passes take other steps, so that
-    // over the frames every pair of angles is met.
-    const double shift = 5.588238 * (second ? 17 * frame + 11 : frame);
+    // Second passes see another part of the pattern. From frame to frame both angles go on by the steps of the sequence
+    // that fills a square most evenly [Roberts2018], so that few frames meet all pairs of angles.
+    const double shift = second ? 61.470618 : 0, step = second ? 0.5698402909980532 : 0.7548776662466927;
     const double inner = 0.06711056 * (x + shift) + 0.00583715 * (y + shift);
     const double outer = 52.9829189 * (inner - std::floor(inner));
-    return std::numbers::pi * (outer - std::floor(outer));
+    const double turn = outer + step * frame;
+    return std::numbers::pi * (turn - std::floor(turn));
 }
 
 Image tapsFilter(const Image& image, const Taps& taps, const FilterOptions& options) {

@@ -7,34 +7,25 @@
 namespace searchlight {
 namespace {
 
-class ThesisMaterials : public testing::TestWithParam<std::string_view> {};
-
-TEST_P(ThesisMaterials, TheBestKernelsHereErrLessOnPicturesThatNobodyHadSeen) {
-    int count = 0, each = 0;
-    double worst[2] = {}, overall[2] = {};
+// By a truth with the 1/r at the middle that walks have. Where all channels are even smoother than a dipole's, as in
+// liquids that hardly scatter, rank 1 errs so little that the grain of 8 frames is more (docs/kernels.md).
+TEST(Thesis, TheBestKernelsHereErrLessOverPicturesThatNobodyHadSeenForEveryMaterial) {
+    int count = 0, ahead_on_each = 0;
     for (const Material& material : materials()) {
         bool scatters = false;
         for (int c = 0; c < material.medium.channels; ++c) scatters = scatters || material.medium.scatters(c);
         if (!scatters) continue;
-        const GroundTruth truth = test::truthOf(material.medium, GetParam());
+        const GroundTruth truth = test::truthOf(material.medium, "normalized_diffusion");
         const test::HeldOut pictures(truth);
-        bool here = true;
-        for (const int passes : {2, 4}) {
-            const test::Ratios found = test::ratios(pictures, passes);
-            std::printf("%s %s %d worst %.3f overall %.3f\n", std::string(GetParam()).c_str(), material.id.c_str(),
-                        passes, found.worst, found.overall);
-            here = here && found.worst < 1;
-            worst[passes / 4] = std::max(worst[passes / 4], found.worst);
-            overall[passes / 4] = std::max(overall[passes / 4], found.overall);
-        }
+        const test::Ratios two = test::ratios(pictures, 2), four = test::ratios(pictures, 4);
+        EXPECT_LT(two.overall, 1) << material.id;
+        EXPECT_LT(four.worst, 1) << material.id;
         ++count;
-        each += here;
+        ahead_on_each += two.worst < 1;
     }
-    std::printf("count %d each %d worst %f %f overall %f %f\n", count, each, worst[0], worst[1], overall[0],
-                overall[1]);
+    // Of the others one channel is a hundred times as wide as another, and a level edge is what a line is exact for.
+    EXPECT_GE(ahead_on_each, count - 5);
 }
-
-INSTANTIATE_TEST_SUITE_P(Truths, ThesisMaterials, testing::Values("normalized_diffusion", "better_dipole"));
 
 }  // namespace
 }  // namespace searchlight

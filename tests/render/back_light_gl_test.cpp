@@ -31,8 +31,7 @@ TEST(BackLightGl, GivesWhatRaysGiveThroughWallsBehindEachOther) {
                             DirectionalLight{.direction = {0.1, 0, 1}},  // before the face: nothing shines through
                             PointLight{.position = {0.1, 0, -0.35}},     // near: a cube of maps
                             PointLight{.position = {0.5, 0, -3}}};
-    for (const auto& walls : {std::vector<std::pair<float, float>>{{0, 1.5f}},
-                              {{-10, -9.5f}, {0, 1.5f}},
+    for (const auto& walls : {std::vector<std::pair<float, float>>{{-10, -9.5f}, {0, 1.5f}},
                               {{-12, -11}, {-10, -9.5f}, {-3, -2}, {0, 1.5f}}}) {
         BackLightCase slab(boxes(walls), 1.5f);
         for (const Light& light : lights)
