@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <numbers>
 
+#include "base/error.h"
 #include "render/hybrid/split.h"
 #include "render/renderer.h"
 #include "scene/materials.h"
@@ -176,6 +177,29 @@ TEST_F(HybridTest, TakesLightsWithoutAView) {
     const Difference found = between(take("tsm", {{"light_map", 128.0}}), truth());
     EXPECT_LT(std::abs(found.mean), 0.02);
     EXPECT_LT(found.rmse, 0.05);
+}
+
+TEST_F(HybridTest, FindsTheSameLightByTangentPlanes) {
+    scene_.object = "torus_knot";
+    settings_.width = 40, settings_.height = 30;
+    const Difference found =
+        between(take("hybrid", {{"local", std::string("tangent")}, {"local_samples", 101.0}}), truth());
+    // Noise of 101 lines per receiver, and half a per cent for texels.
+    EXPECT_LT(std::abs(found.mean), 0.012);
+    EXPECT_LT(found.rmse, 0.1);
+}
+
+TEST_F(HybridTest, StopsWhenAsked) {
+    struct Stopped : Observer {
+        bool cancelled() const override { return true; }
+    } stopped;
+    for (const char* technique : {"tsm", "hybrid"}) {
+        settings_.technique = technique;
+        renderer_.setScene(scene_);
+        renderer_.setSettings(settings_);
+        EXPECT_THROW(renderer_.render(stopped), Error);
+        EXPECT_GT(luminance(take(technique, {})[60 * 120 + 60]), 0);  // and goes on afterwards
+    }
 }
 
 TEST_F(HybridTest, IsBlackWithoutLight) {

@@ -143,24 +143,36 @@ bool sees(const LightMap& map, Vec3 position) {
     return at.z < depth + map.texel * (1 + 0.5 * (std::abs(cell[1]) + std::abs(cell[2])) / map.texel);
 }
 
-// The light of `scene` on what a view sees, into its map; where `counts` says so. False when all is dark.
+// What of `seen` counts.
 template <class Counts>
-bool lightUp(const RenderInput& input, const Scene& scene, LightView& view, Observer& observer, const Counts& counts) {
+Seen chosen(const Seen& seen, const Counts& counts) {
+    Seen some;
+    for (std::size_t k = 0; k < seen.cells.size(); ++k) {
+        if (!counts(k)) continue;
+        some.cells.push_back(seen.cells[k]);
+        some.positions.push_back(seen.positions[k]);
+        some.normals.push_back(seen.normals[k]);
+        some.geometric.push_back(seen.geometric[k]);
+    }
+    return some;
+}
+
+// The light of `scene` on `seen`, into its map. False when all is dark.
+bool lightUp(const RenderInput& input, const Scene& scene, const Seen& seen, LightMap& map, Observer& observer) {
+    if (seen.cells.empty()) return false;
     IrradianceOptions options = input.light;
     options.beams = false;
-    const Seen& seen = view.seen;
     const std::vector<Rgbf> transmitted =
         computeIrradiance({seen.positions, seen.normals}, scene, *input.object, input.rays, options, observer)
             .transmitted;
     bool lit = false;
     for (std::size_t k = 0; k < seen.cells.size(); ++k) {
-        if (transmitted[k] == Rgbf{} || !counts(k)) continue;
+        if (transmitted[k] == Rgbf{}) continue;
         const Vec3 position = toDouble(seen.positions[k]), normal = toDouble(seen.geometric[k]);
         // dA is du dv over the cosine; from a point z^3 / h du dv, with h the distance of its plane from the point.
-        const double area =
-            view.map.central ? 1 / dot(normal, position - view.map.origin) : 1 / dot(normal, view.map.forward);
+        const double area = map.central ? 1 / dot(normal, position - map.origin) : 1 / dot(normal, map.forward);
         const Rgbf light = toFloat(std::abs(area) * toDouble(transmitted[k]));
-        float* cell = &view.map.cells[seen.cells[k]];
+        float* cell = &map.cells[seen.cells[k]];
         cell[4] = light.r;
         cell[5] = light.g;
         cell[6] = light.b;
@@ -256,10 +268,6 @@ LightMaps lightMaps(const RenderInput& input, int resolution, Observer& observer
     LightMaps result;
     Scene spread = *input.scene;
     spread.lights.clear();
-    const auto keep = [&](LightView& view) {
-        result.texels += view.seen.cells.size();
-        result.maps.push_back(std::move(view.map));
-    };
     for (const Light& light : input.scene->lights) {
         const Place place = placeOf(light, *input.object);
         if (!place.has_view) {
@@ -271,7 +279,8 @@ LightMaps lightMaps(const RenderInput& input, int resolution, Observer& observer
         scene.lights = {light};
         LightView view = viewOf(place.frame, input, resolution, observer);
         addGrazed(input, scene, view.map, observer, result);
-        if (lightUp(input, scene, view, observer, [](std::size_t) { return true; })) keep(view);
+        result.texels += view.seen.cells.size();
+        if (lightUp(input, scene, view.seen, view.map, observer)) result.maps.push_back(std::move(view.map));
     }
     result.spread_lights = static_cast<int>(spread.lights.size());
     if (spread.lights.empty()) return result;
@@ -280,6 +289,7 @@ LightMaps lightMaps(const RenderInput& input, int resolution, Observer& observer
         views.push_back(viewOf(frameOf(false, {}, -1 * direction), input, resolution, observer));
     result.views += static_cast<int>(views.size());
     for (std::size_t i = 0; i < views.size(); ++i) {
+        if (observer.cancelled()) throw interruptedError();
         const auto countsHere = [&](std::size_t k) {
             const Vec3 normal = toDouble(views[i].seen.geometric[k]), position = toDouble(views[i].seen.positions[k]);
             const double here = -dot(normal, views[i].map.forward);
@@ -290,14 +300,12 @@ LightMaps lightMaps(const RenderInput& input, int resolution, Observer& observer
             }
             return true;
         };
-        if (lightUp(input, spread, views[i], observer, countsHere)) result.texels += views[i].seen.cells.size();
+        const Seen here = chosen(views[i].seen, countsHere);
+        result.texels += here.cells.size();
+        // The other views read this one's depth, not its light.
+        LightMap lit = views[i].map;
+        if (lightUp(input, spread, here, lit, observer)) result.maps.push_back(std::move(lit));
         observer.progress("light maps", i + 1, views.size(), "views");
-    }
-    for (LightView& view : views) {
-        bool lit = false;
-        for (std::size_t k = 4; k < view.map.cells.size() && !lit; k += LightMap::floats)
-            lit = view.map.cells[k] > 0 || view.map.cells[k + 1] > 0 || view.map.cells[k + 2] > 0;
-        if (lit) result.maps.push_back(std::move(view.map));
     }
     return result;
 }

@@ -35,7 +35,7 @@ struct LightMaps {
     std::vector<LightMap> maps;  ///< none of them dark
     int views = 0;               ///< from which maps were drawn, dark ones included
     int spread_lights = 0;       ///< lights without a view of their own
-    std::size_t texels = 0;      ///< that see the surface
+    std::size_t texels = 0;      ///< that see the surface, and count
     /// Places that shading normals light though their triangle is turned away, or seen edge on, in the view of a light:
     /// on coarse meshes one per cent of the light. In no map.
     PointCloud grazed;
