@@ -16,7 +16,7 @@ namespace searchlight {
 namespace {
 
 constexpr SceneFlag flags[] = {
-    {"object", "a built-in object, or a mesh or point cloud file (default sphere)"},
+    {"object", "a built-in object, a mesh or point cloud file, or a scene file (.json) (default sphere)"},
     {"scale", "length of the object's longest side [mm] (default 10)"},
     {"model", "a model's id, a .bssrdf file or a measured .csv profile (default dipole)"},
     {"set", "model parameters: name=value, several separated by commas"},

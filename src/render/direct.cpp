@@ -89,7 +89,8 @@ public:
         steps_ = (passes + passes_ - 1) / passes_;
         points_per_pass_ = static_cast<std::size_t>(whole(options, "pass_points"));
         by_points_ = sampling != "probes";
-        const bool by_probes = sampling != "area";
+        // Where R_d has no end towards r = 0 points alone have no finite variance; elsewhere they are faster alone.
+        const bool by_probes = sampling == "auto" ? input.model->file.single_scattering : sampling != "area";
         if (sampling == "probes" && !input.profile)
             throw usageError("probes reach as far as a profile does, and this model reads directions",
                              "use --sampling both or area, or --normal-beam");
@@ -359,9 +360,11 @@ std::vector<Param> directOptions() {
          .doc = "passes: in each, new points are drawn on the surface, and a probe per sample of the picture"},
         {.name = "sampling",
          .type = ParamType::choice,
-         .value = std::string("both"),
-         .choices = {"both", "area", "probes"},
-         .doc = "of the surface: evenly, around each sample by the profile, or both, each where it is better"},
+         .value = std::string("auto"),
+         .choices = {"auto", "both", "area", "probes"},
+         .doc =
+             "of the surface: evenly, around each sample by the profile, or both, each where it is better; auto: both "
+             "for models with single scattering, else evenly"},
         {.name = "pass_points",
          .type = ParamType::integer,
          .min = 0,

@@ -43,6 +43,17 @@ size_t count(std::string_view text, std::string_view part) {
     return found;
 }
 
+TEST(ContactSheet, AScaleOfColoursStandsBesideThePictures) {
+    ContactSheet sheet = example();
+    const std::string without = sheetSvg(sheet);
+    sheet.color = Axis{"difference", "%", AxisScale::logarithmic, 0.1, 100};
+    const std::string with = sheetSvg(sheet);
+    EXPECT_EQ(xmlProblem(with), "");
+    EXPECT_EQ(count(without, "difference"), 0u);
+    EXPECT_EQ(count(with, "difference (%)"), 1u);
+    EXPECT_EQ(count(with, "<image "), 7u);
+}
+
 TEST(ContactSheet, IsOneSvgWithItsPicturesInside) {
     const std::string svg = sheetSvg(example());
     EXPECT_EQ(xmlProblem(svg), "");

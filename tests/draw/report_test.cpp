@@ -29,6 +29,18 @@ Report example() {
 
 TEST(ReportHtml, IsWellFormed) { EXPECT_EQ(xmlProblem(reportHtml(example()), {"meta"}), ""); }
 
+TEST(ReportHtml, SheetsOfPicturesStandInside) {
+    Report report = example();
+    ContactSheet sheet;
+    sheet.title = "Nine pictures";
+    sheet.columns = {"one"};
+    sheet.rows = {"two"};
+    sheet.cells.resize(1);
+    report.sections.front().sheets.push_back(sheet);
+    EXPECT_EQ(xmlProblem(reportHtml(report), {"meta"}), "");
+    EXPECT_THAT(reportHtml(report), HasSubstr("Nine pictures"));
+}
+
 TEST(ReportHtml, LoadsNothingAndRunsNothing) {
     const std::string html = reportHtml(example());
     for (const char* loader :

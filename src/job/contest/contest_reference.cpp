@@ -28,12 +28,19 @@ struct Kept {
     Json document;
 };
 
+// A folder may have been moved.
+Json withoutOutput(Json job) {
+    if (job.is_object()) job.erase("output");
+    return job;
+}
+
 std::optional<Kept> readKept(const fs::path& path, const Job& job) {
     const fs::path numbers = fs::path(path).replace_extension(".json");
     if (!fs::exists(path) || !fs::exists(numbers)) return std::nullopt;
     const Json document = Json::parse(readFile(numbers), nullptr, false);
     if (!document.is_object() || document.value("version", Json()) != Json(version())) return std::nullopt;
-    if (document.value("job", Json()) != Json::parse(jobJson(job))) return std::nullopt;
+    if (!document.contains("job") || withoutOutput(document["job"]) != withoutOutput(Json::parse(jobJson(job))))
+        return std::nullopt;
     return Kept{readImage(path.string()), document};
 }
 
