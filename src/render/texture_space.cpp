@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "geometry/atlas/atlas_cache.h"
 #include "gl/context.h"
 #include "render/exitance_sum.h"
 #include "render/hierarchical.h"
@@ -124,7 +125,11 @@ private:
         const auto begin = Clock::now();
         atlas_from_.clear();
         lit_.reset();
-        atlas_ = makeAtlas(input.object->mesh, atlasOptions(options, input.threads), observer);
+        const Object& object = *input.object;
+        const AtlasOptions wanted = atlasOptions(options, input.threads);
+        atlas_ = input.points_cache ? cachedAtlas(object.mesh, object.content_hash, wanted,
+                                                  atlasesBeside(*input.points_cache), observer)
+                                    : makeAtlas(object.mesh, wanted, observer);
         map_ = mapTexels(input.object->mesh, atlas_);
         atlas_from_ = key;
         stage_ms_["atlas"] = milliseconds(begin);

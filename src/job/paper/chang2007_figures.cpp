@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "geometry/atlas/atlas.h"
+#include "geometry/atlas/atlas_cache.h"
 #include "job/paper/chang2007.h"
 #include "job/paper/pictures.h"
 #include "job/unit_progress.h"
@@ -202,9 +202,13 @@ PaperPlate figure46(const PaperRun& run) {
     return plate;
 }
 
-Image atlasOf(const Mesh& mesh, bool conformal, int side, Observer& observer) {
+Image atlasOf(const Object& object, bool conformal, int side, Observer& observer) {
     const AtlasOptions options{.resolution = side, .conformal = conformal, .uvs = AtlasUvs::own};
-    return atlasPicture(mesh, makeAtlas(mesh, options, observer), 2);
+    const std::optional<CacheFolder> cache = shapeCache();
+    return atlasPicture(object.mesh,
+                        cache ? cachedAtlas(object.mesh, object.content_hash, options, atlasesBeside(*cache), observer)
+                              : makeAtlas(object.mesh, options, observer),
+                        2);
 }
 
 // A picture that has alpha, before white, in the middle of one of that size.
@@ -248,8 +252,8 @@ PaperPlate figure47(const PaperRun& run) {
         errors[k] = errorOf(picture, truth);
         const auto& numbers = picture.report.numbers;
         sheet.cells.push_back(chartsCell(
-            atlasOf(studio.stages("texture-space").object->mesh, conformal, 128, progress), studio.width, studio.height,
-            fmt::format("{:.0f} charts, texel ≤ {:.3g} × mean", numbers.at("charts"), numbers.at("largest_area"))));
+            atlasOf(*studio.stages("texture-space").object, conformal, 128, progress), studio.width, studio.height,
+            fmt::format("{:.0f} charts, texel ≤ {:.0f} × mean", numbers.at("charts"), numbers.at("largest_area"))));
         sheet.cells.push_back(shownCell(picture.image, truth.exposure, percentOf(errors[k])));
         sheet.cells.push_back(differenceCell(picture.image, truth.image, 0.2, ""));
         plate.values[conformal ? "conformal" : "own"] = {{"relative_rmse", errors[k]},

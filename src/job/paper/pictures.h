@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -58,6 +59,9 @@ double whereItFallsTo(double wanted, const std::vector<double>& x, const std::ve
 
 /// A picture for a sheet, before a dark ground.
 SheetCell shownCell(const Image& image, double exposure, std::string note = {});
+
+/// Where points and atlases of a user's pictures are kept; nothing where there is no home.
+std::optional<CacheFolder> shapeCache();
 
 /// "statue, 320 x 400 pixels, one point light": what stands in for the paper's own.
 std::string studioText(const PaperRun& run);
