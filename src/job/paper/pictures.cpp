@@ -44,7 +44,7 @@ PaperStudio::PaperStudio(const PaperRun& run, Observer& observer) : run_(run), o
     scene.lights = {PointLight{.position = {0.9, 1.1, 1.1}}};
 }
 
-PaperPicture PaperStudio::take(const std::string& technique, const ParamValues& options, std::uint64_t seed) {
+PaperPicture PaperStudio::prepare(const std::string& technique, const ParamValues& options, std::uint64_t seed) {
     std::unique_ptr<Renderer>& renderer = renderers_[technique];
     if (!renderer) renderer = std::make_unique<Renderer>(materialSource(run_.engine, "cpu"));
     renderer->setSettings({.width = width,
@@ -64,17 +64,23 @@ PaperPicture PaperStudio::take(const std::string& technique, const ParamValues& 
     PaperPicture picture;
     const double begin = cpuMs();
     renderer->start(observer_);
-    const double prepared = cpuMs();
-    while (!renderer->step(observer_)) {
-    }
-    picture.sum_cpu_ms = cpuMs() - prepared;
-    picture.prepare_cpu_ms = prepared - begin;
-    picture.image = renderer->image(observer_);
+    picture.prepare_cpu_ms = cpuMs() - begin;
     const RenderReport& report = renderer->report();
-    picture.exposure = report.exposure;
     picture.receivers = report.receivers;
     picture.camera = report.camera;
-    picture.report = report.technique;
+    return picture;
+}
+
+PaperPicture PaperStudio::take(const std::string& technique, const ParamValues& options, std::uint64_t seed) {
+    PaperPicture picture = prepare(technique, options, seed);
+    Renderer& renderer = *renderers_.at(technique);
+    const double begin = cpuMs();
+    while (!renderer.step(observer_)) {
+    }
+    picture.sum_cpu_ms = cpuMs() - begin;
+    picture.image = renderer.image(observer_);
+    picture.exposure = renderer.report().exposure;
+    picture.report = renderer.report().technique;
     return picture;
 }
 

@@ -38,6 +38,9 @@ public:
 
     PaperPicture take(const std::string& technique, const ParamValues& options = {}, std::uint64_t seed = 1);
 
+    /// take() up to the sum: no image, and no cost of the sum.
+    PaperPicture prepare(const std::string& technique, const ParamValues& options = {}, std::uint64_t seed = 1);
+
     /// What pictures are judged by: the light of 200,000 points, summed to 0.1 %.
     PaperPicture truth();
 
