@@ -55,7 +55,9 @@ public:
         if (object || light) lightPoints(observer);
         if (object || light || view) keepUnseen();
         if (unseen_ && (object || light || view || material)) table_.emplace(*input.profile, unseen_->meanArea());
-        if (unseen_ && (view || !receivers_)) receivers_.emplace(input.visible->positions, input.threads);
+        // Also where nothing needs them now: the next start may, with the same view.
+        if (view) receivers_.reset();
+        if (unseen_ && !receivers_) receivers_.emplace(input.visible->positions, input.threads);
         unseen_ms_ = milliseconds(unseen_begin);
         seen_ = now;
         options_ = options;

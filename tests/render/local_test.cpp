@@ -104,17 +104,19 @@ struct Difference {
     double mean = 0, rmse = 0;  ///< relative, of green
 };
 
+RenderMaterial materialOf(const Scene& of) {
+    RenderMaterial material{loadModel(of.model.id), resolveMaterial(of.material).medium, nullptr};
+    material.evaluator = makeNativeEvaluator(material.model);
+    material.evaluator->set(material.medium, {});
+    return material;
+}
+
 // The picture of the technique beside that of the hierarchical sum.
 Difference besideTheSum(const Scene& scene, double samples) {
     Observer quiet;
     RenderSettings settings{.width = 160, .height = 120, .points = 40'000, .edge_samples = 1};
     settings.technique_options = {{"error", 0.002}};
-    Renderer renderer([](const Scene& of) {
-        RenderMaterial material{loadModel(of.model.id), resolveMaterial(of.material).medium, nullptr};
-        material.evaluator = makeNativeEvaluator(material.model);
-        material.evaluator->set(material.medium, {});
-        return material;
-    });
+    Renderer renderer(materialOf);
     renderer.setScene(scene);
     renderer.setSettings(settings);
     const Image truth = renderer.render(quiet);
@@ -157,6 +159,26 @@ TEST(Local, CountsLightThatEntersOutOfSight) {
     const Difference back = besideTheSum(lit("sphere", {-0.3, 0.2, -1}), 256);
     EXPECT_NEAR(back.mean, 0, 0.02);
     EXPECT_LT(back.rmse, 0.05);
+}
+
+TEST(Local, FollowsACameraThatMovedWhilePointsWereOff) {
+    Observer quiet;
+    Scene scene = lit("sphere", {-0.3, 0.2, -1});
+    RenderSettings settings{.width = 48, .height = 36, .technique = "local", .edge_samples = 1};
+    const auto points = [&](double count) {
+        settings.technique_options = {{"samples", 16.0}, {"global_points", count}};
+    };
+    Renderer kept(materialOf), fresh(materialOf);
+    for (const double count : {2000.0, 0.0, 2000.0}) {
+        if (count == 0) scene.camera.azimuth_deg += 100;
+        points(count);
+        kept.setScene(scene);
+        kept.setSettings(settings);
+        kept.render(quiet);
+    }
+    fresh.setScene(scene);
+    fresh.setSettings(settings);
+    EXPECT_EQ(kept.render(quiet).pixels, fresh.render(quiet).pixels);
 }
 
 TEST(Local, HidesNothingAtEdgesOfDepth) {

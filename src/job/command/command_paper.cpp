@@ -49,12 +49,13 @@ void addPlates(const Paper& paper, const std::vector<PaperFigure>& figures, cons
     }
 }
 
-// Tables alone where only tables were asked for.
+// Where only figures or only tables are asked for, the others are not made.
 std::vector<Plate> platesOf(const Paper& paper, const Options& options) {
     std::vector<Plate> plates;
     if (options.given("figure") || !options.given("table"))
         addPlates(paper, paper.figures, options.names("figure"), {}, plates);
-    addPlates(paper, paper.tables, options.names("table"), {.kind = "table", .stem = "tab"}, plates);
+    if (options.given("table") || !options.given("figure"))
+        addPlates(paper, paper.tables, options.names("table"), {.kind = "table", .stem = "tab"}, plates);
     return plates;
 }
 
@@ -175,7 +176,7 @@ Command paperCommand() {
                         {.name = "table",
                          .type = ParamType::text,
                          .value = std::string("all"),
-                         .doc = "the same of its tables"},
+                         .doc = "the same of its tables; with --figure alone, none"},
                         option::walks(4e6, "reference_walks", "random walks of the reference per curve or picture"),
                         {.name = "format",
                          .type = ParamType::choice,

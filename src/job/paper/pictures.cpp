@@ -19,11 +19,18 @@ namespace {
 constexpr std::size_t truth_points = 200'000;
 constexpr double truth_error = 0.001;
 
+// Of the distance from which an object fills 70 % of the height: sheets are small.
+constexpr double nearer = 0.75;
+
 // Radiance behind an object that is shown, after exposure.
 constexpr float ground = 0.02F;
 
-// No home, no cache.
-std::optional<CacheFolder> pointCache() {
+// Processor time of all threads.
+double cpuMs() { return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+}  // namespace
+
+std::optional<CacheFolder> shapeCache() {
     try {
         return userPointCache();
     } catch (const Error&) {
@@ -31,21 +38,15 @@ std::optional<CacheFolder> pointCache() {
     }
 }
 
-// Processor time of all threads.
-double cpuMs() { return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
-
-}  // namespace
-
 PaperStudio::PaperStudio(const PaperRun& run, Observer& observer) : run_(run), observer_(observer) {
     if (run.size > 0) width = std::max(1, run.size * 4 / 5), height = run.size;
     scene.object = run.object;
     scene.lights = {PointLight{.position = {0.9, 1.1, 1.1}}};
 }
 
-PaperPicture PaperStudio::take(const std::string& technique, const ParamValues& options, std::uint64_t seed) {
+PaperPicture PaperStudio::prepare(const std::string& technique, const ParamValues& options, std::uint64_t seed) {
     std::unique_ptr<Renderer>& renderer = renderers_[technique];
     if (!renderer) renderer = std::make_unique<Renderer>(materialSource(run_.engine, "cpu"));
-    renderer->setScene(scene);
     renderer->setSettings({.width = width,
                            .height = height,
                            .points = truth_points,
@@ -53,21 +54,33 @@ PaperPicture PaperStudio::take(const std::string& technique, const ParamValues& 
                            .technique_options = options,
                            .seed = seed,
                            .threads = run_.threads,
-                           .points_cache = pointCache()});
+                           .points_cache = shapeCache()});
+    if (scene.camera.distance == 0) {
+        renderer->setScene(scene);
+        renderer->start(observer_);
+        scene.camera.distance = nearer * renderer->report().camera.distance;
+    }
+    renderer->setScene(scene);
     PaperPicture picture;
     const double begin = cpuMs();
     renderer->start(observer_);
-    const double prepared = cpuMs();
-    while (!renderer->step(observer_)) {
-    }
-    picture.sum_cpu_ms = cpuMs() - prepared;
-    picture.prepare_cpu_ms = prepared - begin;
-    picture.image = renderer->image(observer_);
+    picture.prepare_cpu_ms = cpuMs() - begin;
     const RenderReport& report = renderer->report();
-    picture.exposure = report.exposure;
     picture.receivers = report.receivers;
     picture.camera = report.camera;
-    picture.report = report.technique;
+    return picture;
+}
+
+PaperPicture PaperStudio::take(const std::string& technique, const ParamValues& options, std::uint64_t seed) {
+    PaperPicture picture = prepare(technique, options, seed);
+    Renderer& renderer = *renderers_.at(technique);
+    const double begin = cpuMs();
+    while (!renderer.step(observer_)) {
+    }
+    picture.sum_cpu_ms = cpuMs() - begin;
+    picture.image = renderer.image(observer_);
+    picture.exposure = renderer.report().exposure;
+    picture.report = renderer.report().technique;
     return picture;
 }
 

@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,9 @@ public:
 
     PaperPicture take(const std::string& technique, const ParamValues& options = {}, std::uint64_t seed = 1);
 
+    /// take() up to the sum: no image, and no cost of the sum.
+    PaperPicture prepare(const std::string& technique, const ParamValues& options = {}, std::uint64_t seed = 1);
+
     /// What pictures are judged by: the light of 200,000 points, summed to 0.1 %.
     PaperPicture truth();
 
@@ -58,6 +62,9 @@ double whereItFallsTo(double wanted, const std::vector<double>& x, const std::ve
 
 /// A picture for a sheet, before a dark ground.
 SheetCell shownCell(const Image& image, double exposure, std::string note = {});
+
+/// Where points and atlases of a user's pictures are kept; nothing where there is no home.
+std::optional<CacheFolder> shapeCache();
 
 /// "statue, 320 x 400 pixels, one point light": what stands in for the paper's own.
 std::string studioText(const PaperRun& run);

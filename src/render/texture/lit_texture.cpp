@@ -5,6 +5,8 @@
 #include <chrono>
 #include <cmath>
 
+#include "geometry/atlas/atlas_cache.h"
+
 namespace searchlight {
 
 namespace {
@@ -48,8 +50,12 @@ bool LitTexture::refreshAtlas(const RenderInput& input, const ParamValues& optio
     if (key == atlas_from_) return false;
     atlas_from_.clear();
     lit_.reset();
-    atlas_ = makeAtlas(input.object->mesh, atlasOptions(options, input.threads), observer);
-    map_ = mapTexels(input.object->mesh, atlas_);
+    const Object& object = *input.object;
+    const AtlasOptions wanted = atlasOptions(options, input.threads);
+    atlas_ = input.points_cache ? cachedAtlas(object.mesh, object.content_hash, wanted,
+                                              atlasesBeside(*input.points_cache), observer)
+                                : makeAtlas(object.mesh, wanted, observer);
+    map_ = mapTexels(object.mesh, atlas_);
     // Counting sort of cells by their texel.
     const auto texels = static_cast<std::size_t>(map_.resolution) * static_cast<std::size_t>(map_.resolution);
     first_cell_.assign(texels + 1, 0);
