@@ -11,6 +11,7 @@
 #include "render/direct/block_sum.h"
 #include "render/direct/chosen_light.h"
 #include "render/direct/even_points.h"
+#include "render/direct/model_sum.h"
 #include "render/direct/probe_hits.h"
 #include "render/direct/probes.h"
 #include "render/exitance/fine_cell.h"
@@ -36,7 +37,9 @@ constexpr std::size_t queries_per_batch = 65'536;
 
 // Points of a pass that take about as long as its probes do: by the table, where rays go from each into surroundings,
 // and where each is a query of the model.
-constexpr std::size_t table_points = 16'384, surrounded_points = 4'096, model_points = 512;
+constexpr std::size_t table_points = 16'384, surrounded_points = 4'096, model_points = 2'048;
+// Of these, how many a block of receivers takes per pass where each is a query of the model.
+constexpr std::size_t model_choice = 128;
 
 int whole(const ParamValues& options, std::string_view name) {
     return static_cast<int>(std::get<double>(options.find(name)->second));
@@ -104,6 +107,8 @@ public:
             points_per_pass_ = !input.profile ? model_points : light_->draws() ? surrounded_points : table_points;
         profile_ = input.profile ? *input.profile
                                  : tabulate(*input.evaluator, *input.model, *input.medium, profile_error).profile;
+        evaluators_.reset();
+        if (!input.profile) evaluators_.emplace(input);
         probes_.reset();
         if (by_probes) probes_.emplace(profile_, *input.medium);
         if (probes_ && !probes_->usable()) probes_.reset();
@@ -233,24 +238,14 @@ private:
 
     void sumModel(const ChosenPoints& points, const Irradiance& light, double area, std::uint64_t seed,
                   Observer& observer) {
-        const double rate = fallOff(*input_.medium);
-        Batch batch(input_, step_);
-        for (std::size_t o = 0; o < step_.size(); ++o) {
-            if (o % 64 == 0 && observer.cancelled()) throw interruptedError();
-            const Vec3 xo = toDouble(input_.visible->positions[o]);
-            RandomStream random(~seed, o);
-            for (std::size_t i = 0; i < points.positions.size(); ++i) {
-                const Vec3 xi = toDouble(points.positions[i]);
-                const double r = length(xi - xo), taken = std::exp(-rate * r);
-                if (random.uniform() >= taken) continue;
-                const double weight = area * shares_.ofPoints(r) / taken;
-                forEachBeam(points, light, i, [&](Vec3 wi, Rgb flux) {
-                    batch.add(o, xi, toDouble(points.normals[i]), wi, weight * flux);
-                    ++interactions_;
-                });
-            }
-        }
-        batch.flush();
+        std::vector<ModelSource> sources;
+        for (std::size_t i = 0; i < points.positions.size(); ++i)
+            forEachBeam(points, light, i, [&](Vec3 wi, Rgb flux) {
+                sources.push_back({points.positions[i], points.normals[i], toFloat(wi), toFloat(area * flux)});
+            });
+        interactions_ += sumModelBlocks(
+            input_, *evaluators_, sources, profile_, [&](double r) { return shares_.ofPoints(r); },
+            {.sources = model_choice * static_cast<std::size_t>(passes_), .seed = ~seed}, observer, step_);
     }
 
     void addProbes(std::uint64_t seed, Observer& observer) {
@@ -336,6 +331,7 @@ private:
     std::optional<Probes> probes_;
     Shares shares_;
     std::optional<RadialTable> table_;
+    std::optional<ModelEvaluators> evaluators_;  // of a model that is no table
     ReceiverBlocks receivers_{{}};
     std::array<std::vector<float>, 3> block_sums_;
     bool by_points_ = true;
@@ -371,7 +367,7 @@ std::vector<Param> directOptions() {
          .max = 1e6,
          .value = 0.0,
          .doc =
-             "points that are drawn evenly over the surface in a pass; 0: 16384, 4096 for shadowed surroundings, 512 "
+             "points that are drawn evenly over the surface in a pass; 0: 16384, 4096 for shadowed surroundings, 2048 "
              "for a model that reads directions"}};
 }
 

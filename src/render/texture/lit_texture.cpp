@@ -52,9 +52,9 @@ bool LitTexture::refreshAtlas(const RenderInput& input, const ParamValues& optio
     lit_.reset();
     const Object& object = *input.object;
     const AtlasOptions wanted = atlasOptions(options, input.threads);
-    atlas_ = input.points_cache ? cachedAtlas(object.mesh, object.content_hash, wanted,
-                                              atlasesBeside(*input.points_cache), observer)
-                                : makeAtlas(object.mesh, wanted, observer);
+    atlas_ = input.points_cache
+                 ? cachedAtlas(object.mesh, object.content_hash, wanted, atlasesBeside(*input.points_cache), observer)
+                 : makeAtlas(object.mesh, wanted, observer);
     map_ = mapTexels(object.mesh, atlas_);
     // Counting sort of cells by their texel.
     const auto texels = static_cast<std::size_t>(map_.resolution) * static_cast<std::size_t>(map_.resolution);
