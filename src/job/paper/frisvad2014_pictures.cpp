@@ -116,7 +116,8 @@ void sayWhatIsCompared(PaperPlate& plate, const PaperRun& run) {
         "Models other than the directional dipole have the single scattering of walks added; without it they are "
         "\"without single\". Unscattered light is added to all, to the directional dipole attenuated as in Eq. 4.");
     plate.choices.emplace_back(
-        "RMSE is relative to the reference's mean; the share of noise (standard errors) is taken out of its square. "
+        "RMSE is relative to the reference's mean; the share of noise (from two halves of the walks) is taken out of "
+        "its square. "
         "SSIM is of PU21 luminance and has the noise in it: two references of half the walks have the SSIM of the "
         "last column, which is a bound for what can be told apart.");
     plate.choices.emplace_back(
