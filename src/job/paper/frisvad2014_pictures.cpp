@@ -28,6 +28,7 @@ const std::array<Shown, 4>& shownModels() {
 constexpr std::size_t ours = 3;
 
 constexpr double full_difference = 0.5;  // end of the colours, over the reference's mean
+constexpr double full_root = 1.5;        // the same of squared differences, before they are squared
 
 // Of the text marble and white grapefruit juice are known, and that the first four scatter isotropically.
 struct Sample {
@@ -154,14 +155,14 @@ void addRows(PaperPlate& plate, const std::string& name, const Pictures& picture
     }
     sheet.rows.push_back(shows ? (squares ? "squared difference" : "difference") : name);
     for (const NoisyImage& image : pictures.with)
-        sheet.cells.push_back(squares ? squareCell(image.mean, reference, full_difference, "")
+        sheet.cells.push_back(squares ? squareCell(image.mean, reference, full_root, "")
                                       : differenceCell(image.mean, reference, full_difference, ""));
     sheet.cells.emplace_back();
 }
 
 std::string captionOf(bool squares) {
     return squares ? fmt::format("Squared difference of each channel, full at the square of {} of the walks' mean.",
-                                 partText(full_difference))
+                                 partText(full_root))
                    : fmt::format(
                          "Difference of luminance, model less walks: blue too dark, orange too bright, full at "
                          "{} of the walks' mean. RMSE without the share of noise.",
