@@ -28,6 +28,7 @@ const std::array<Shown, 4>& shownModels() {
 constexpr std::size_t ours = 3;
 
 constexpr double full_difference = 0.5;  // end of the colours, over the reference's mean
+constexpr double full_root = 1.5;        // the same of squared differences, before they are squared
 
 // Of the text marble and white grapefruit juice are known, and that the first four scatter isotropically.
 struct Sample {
@@ -116,7 +117,8 @@ void sayWhatIsCompared(PaperPlate& plate, const PaperRun& run) {
         "Models other than the directional dipole have the single scattering of walks added; without it they are "
         "\"without single\". Unscattered light is added to all, to the directional dipole attenuated as in Eq. 4.");
     plate.choices.emplace_back(
-        "RMSE is relative to the reference's mean; the share of noise (standard errors) is taken out of its square. "
+        "RMSE is relative to the reference's mean; the share of noise (from two halves of the walks) is taken out of "
+        "its square. "
         "SSIM is of PU21 luminance and has the noise in it: two references of half the walks have the SSIM of the "
         "last column, which is a bound for what can be told apart.");
     plate.choices.emplace_back(
@@ -153,14 +155,14 @@ void addRows(PaperPlate& plate, const std::string& name, const Pictures& picture
     }
     sheet.rows.push_back(shows ? (squares ? "squared difference" : "difference") : name);
     for (const NoisyImage& image : pictures.with)
-        sheet.cells.push_back(squares ? squareCell(image.mean, reference, full_difference, "")
+        sheet.cells.push_back(squares ? squareCell(image.mean, reference, full_root, "")
                                       : differenceCell(image.mean, reference, full_difference, ""));
     sheet.cells.emplace_back();
 }
 
 std::string captionOf(bool squares) {
     return squares ? fmt::format("Squared difference of each channel, full at the square of {} of the walks' mean.",
-                                 partText(full_difference))
+                                 partText(full_root))
                    : fmt::format(
                          "Difference of luminance, model less walks: blue too dark, orange too bright, full at "
                          "{} of the walks' mean. RMSE without the share of noise.",

@@ -22,7 +22,7 @@ Scene sceneOf(std::string object, double scale_mm, std::vector<Light> lights);
 /// `size`: of the picture's sides, where the run does not say it.
 LitBodyOptions bodyOptions(const PaperRun& run, int size, double cell_pixels);
 
-/// A reference, and two of half its walks, whose difference says what noise does to an SSIM.
+/// A reference, and two of half its walks: their difference is its error, and says what noise does to an SSIM.
 struct ReferencePicture {
     NoisyImage picture;
     std::array<Image, 2> halves;

@@ -10,7 +10,7 @@
 
 namespace searchlight {
 
-/// A picture with its standard error per pixel and channel; empty: it has none.
+/// A picture, and an error per pixel and channel whose mean square is that of its noise; empty: it has none.
 struct NoisyImage {
     Image mean, error;
 };
