@@ -82,11 +82,13 @@ std::span<const TechniqueEntry> techniques() {
         {.id = "tsm",
          .summary = "a filter of rings around each receiver in what the lights see",
          .options = with(lightViewOptions(), normalBeamOption()),
+         .budget = {"local_samples", {51, 101, 201, 401, 1'601}},
          .light_at = LightPlace::own,
          .make = makeTsm},
         {.id = "hybrid",
          .summary = "texture space for what comes from far, samples around each receiver for what comes from near",
          .options = with(hybridOptions(), normalBeamOption()),
+         .budget = {"samples", {100, 400, 900, 3'600}},
          .light_at = LightPlace::own,
          .make = makeHybrid},
     };
