@@ -1,6 +1,7 @@
 // Translucent shadow maps and the hybrid technique: their error, against all the light summed, and their price.
 //
-//   hybrid_bench [--object NAME] [--material ID] [--scale MM] [--size WIDTHxHEIGHT] [--only bands|sizes|split|samples]
+//   hybrid_bench [--object NAME] [--material ID] [--scale MM] [--size WIDTHxHEIGHT] [--only
+//   bands|sizes|split|samples|local]
 //
 // Errors are relative, in % of the worst channel: RMSE is the root of the mean squared error over that of the mean
 // square, mean the difference of the sums over the picture. ms: CPU time of all threads for a new camera.
@@ -8,6 +9,7 @@
 // bands:   objects of several kinds, lit from the front and from behind
 // sizes:   an object of 10 to 70 mm by texture-space, tsm and hybrid, each with the same samples throughout
 // split:   the same by hybrid, over where R_d is split
+// local:   hybrid with its two kinds of local samples, at several numbers of them
 // samples: tsm and hybrid over their local samples and the texels of light maps
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -171,6 +173,17 @@ void samples(const Setup& setup) {
     }
 }
 
+void local(Setup setup) {
+    for (const double size : {10.0, 70.0}) {
+        setup.scene.scale = size;
+        const Pixels truth = truthOf(setup);
+        for (const char* kind : {"light", "tangent"})
+            for (const double count : {17.0, 101.0, 401.0})
+                row(fmt::format("{} mm, {} {}", size, kind, count), setup, "hybrid",
+                    {{"local", std::string(kind)}, {"local_samples", count}}, truth);
+    }
+}
+
 }  // namespace
 }  // namespace searchlight
 
@@ -194,4 +207,5 @@ int main(int argc, char** argv) {
     if (wanted("sizes")) sizes(setup);
     if (wanted("split")) split(setup);
     if (wanted("samples")) samples(setup);
+    if (wanted("local")) local(setup);
 }

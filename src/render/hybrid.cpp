@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "render/hybrid/split.h"
+#include "render/hybrid/tangent_sum.h"
 #include "render/light_view/light_view_sum.h"
 #include "render/texture_space.h"
 #include "render/tsm.h"
@@ -19,6 +20,8 @@ namespace {
 
 // Shared with texture-space, with its own numbers of samples.
 constexpr std::array global_options{"samples", "atlas", "uvs", "footprint", "own_light", "sum"};
+
+constexpr const char* local_words[] = {"light", "tangent"};
 
 double meshArea(const Mesh& mesh) {
     double area = 0;
@@ -31,7 +34,8 @@ double meshArea(const Mesh& mesh) {
 
 class Hybrid final : public Technique {
 public:
-    Hybrid() : global_(makeTextureSpace(nullptr)) {}
+    Hybrid()
+        : texture_(std::make_shared<LitTexture>()), global_(makeTextureSpace(nullptr, texture_)), planes_(texture_) {}
 
     void start(const RenderInput& input, const ParamValues& options, Observer& observer) override {
         const auto number = [&](const char* name) { return std::get<double>(options.at(name)); };
@@ -45,8 +49,12 @@ public:
         }
         split_from_ = from;
         exitance_.assign(input.visible->positions.size(), {});
-        local_.start(input, split_.local, splits_, static_cast<int>(number("local_samples")),
-                     static_cast<int>(number("light_map")), observer);
+        by_planes_ = std::get<std::string>(options.at("local")) == local_words[1];
+        const int samples = static_cast<int>(number("local_samples"));
+        if (by_planes_)
+            planes_.start(input, split_.local, samples);
+        else
+            views_.start(input, split_.local, splits_, samples, static_cast<int>(number("light_map")), observer);
         local_done_ = false;
         RenderInput inner = input;
         inner.profile = &split_.global;
@@ -59,7 +67,7 @@ public:
     bool step(Observer& observer) override {
         if (exitance_.empty()) return true;
         if (!local_done_) {
-            local_done_ = local_.step(exitance_, observer);
+            local_done_ = by_planes_ ? planes_.step(exitance_, observer) : views_.step(exitance_, observer);
             return false;
         }
         if (!global_->step(observer)) return false;
@@ -76,20 +84,28 @@ public:
     TechniqueReport report() const override {
         TechniqueReport report = global_->report();
         report.approximates =
-            "the near part of R_d is gathered from what the lights see, the far part from samples that all receivers "
-            "share";
+            by_planes_
+                ? "the near part of R_d is gathered around each receiver, with the light of texels; the far part "
+                  "is that of samples that all receivers share"
+                : "the near part of R_d is gathered from what the lights see; the far part is that of samples "
+                  "that all receivers share";
         for (int c = 0; c < Rgb::channels; ++c) {
             report.numbers[fmt::format("split_mm_{}", "rgb"[c])] = split_.border_mm[c];
             report.numbers[fmt::format("local_share_{}", "rgb"[c])] = split_.local_share[c];
         }
-        local_.addTo(report);
+        if (by_planes_)
+            planes_.addTo(report);
+        else
+            views_.addTo(report);
         return report;
     }
 
 private:
+    std::shared_ptr<LitTexture> texture_;
     std::unique_ptr<Technique> global_;
-    LightViewSum local_;
-    bool local_done_ = false;
+    LightViewSum views_;
+    TangentSum planes_;
+    bool by_planes_ = false, local_done_ = false;
     double area_mm2_ = 0;
     std::optional<std::uint64_t> area_of_;  // the object that it is of
     std::string split_from_;
@@ -107,13 +123,19 @@ std::vector<Param> hybridOptions() {
         if (param.name == "samples") param.value = 900.0;
         options.push_back(std::move(param));
     }
+    options.push_back({.name = "local",
+                       .type = ParamType::choice,
+                       .value = std::string(local_words[0]),
+                       .choices = {std::begin(local_words), std::end(local_words)},
+                       .doc = "what comes from near: rings in what the lights see, or lines through the tangent plane "
+                              "onto the surface, whose light is the atlas'"});
     for (Param& param : lightViewOptions()) options.push_back(std::move(param));
     options.push_back({.name = "split",
-                       .min = 0,
+                       .min = 1e-4,
                        .max = 1,
                        .value = 0.1,
-                       .doc = "where the local part ends: where light that arrives per mm of distance is so much of "
-                              "all of it per distance between samples; 0: all is local"});
+                       .doc = "where the near part ends: from there on less than this part of the light arrives per "
+                              "distance between samples"});
     return options;
 }
 

@@ -9,11 +9,10 @@
 #include <optional>
 
 #include "base/error.h"
-#include "geometry/atlas/atlas_cache.h"
 #include "gl/context.h"
 #include "render/exitance_sum.h"
 #include "render/hierarchical.h"
-#include "render/texture/texture_samples.h"
+#include "render/texture/lit_texture.h"
 
 namespace searchlight {
 
@@ -30,16 +29,6 @@ constexpr double tree_error = 0.001;
 
 constexpr const char* uvs_words[] = {"automatic", "own", "file", "conformal"};
 
-AtlasOptions atlasOptions(const ParamValues& options, int threads) {
-    const std::string& uvs = std::get<std::string>(options.at("uvs"));
-    return {.resolution = static_cast<int>(std::get<double>(options.at("atlas"))),
-            .conformal = uvs == "conformal",
-            .uvs = uvs == "automatic" ? AtlasUvs::automatic
-                   : uvs == "file"    ? AtlasUvs::file
-                                      : AtlasUvs::own,
-            .threads = threads};
-}
-
 // Of a texel, times the mean, from which on a user should know: it blurs light like an atlas with a quarter of the
 // side.
 constexpr double much_surface = 16;
@@ -49,17 +38,17 @@ constexpr std::size_t slice_pairs = 20'000'000;
 
 class TextureSpace final : public Technique {
 public:
-    explicit TextureSpace(gl::Context* context) : context_(context) {
+    TextureSpace(gl::Context* context, std::shared_ptr<LitTexture> texture)
+        : context_(context), texture_(std::move(texture)) {
         if (context) device_.emplace(*context);
     }
 
     void start(const RenderInput& input, const ParamValues& options, Observer& observer) override {
         stage_ms_.clear();
-        const bool surface = refreshAtlas(input, options, observer);
-        const bool new_light = refreshLight(input, surface, observer);
-        if (new_light || now(input, options) != drawn_from_) draw(input, options, observer);
+        const std::uint64_t light = texture_->refresh(input, options, stage_ms_, observer);
+        if (light != light_ || now(input, options) != drawn_from_) draw(input, options, observer);
+        light_ = light;
         input_ = input;
-        seen_ = input.versions;
         exitance_.assign(input.visible->positions.size(), {});
         next_ = 0;
         if (samples_.dark || exitance_.empty()) return;
@@ -101,11 +90,15 @@ public:
             report.interactions = sum.interactions;
             report.device = sum.device;
         }
-        const AtlasReport& atlas = atlas_.report;
-        report.numbers = {{"charts", static_cast<double>(atlas.charts)}, {"atlas_fill", atlas.fill},
-                          {"texels", static_cast<double>(map_.size())},  {"stretch_l2", atlas.stretch.l2},
-                          {"stretch_worst", atlas.stretch.worst},        {"area_distortion", atlas.stretch.area_rms},
-                          {"largest_area", atlas.stretch.largest_area},  {"lit_area_mm2", samples_.lit_area_mm2}};
+        const AtlasReport& atlas = texture_->atlas().report;
+        report.numbers = {{"charts", static_cast<double>(atlas.charts)},
+                          {"atlas_fill", atlas.fill},
+                          {"texels", static_cast<double>(texture_->map().size())},
+                          {"stretch_l2", atlas.stretch.l2},
+                          {"stretch_worst", atlas.stretch.worst},
+                          {"area_distortion", atlas.stretch.area_rms},
+                          {"largest_area", atlas.stretch.largest_area},
+                          {"lit_area_mm2", samples_.lit_area_mm2}};
         if (!atlas.fault.empty())
             report.notes.push_back(
                 fmt::format("The object's uvs are not used, but an atlas made for it: {}.", atlas.fault));
@@ -117,36 +110,6 @@ public:
     }
 
 private:
-    // True when the atlas is new.
-    bool refreshAtlas(const RenderInput& input, const ParamValues& options, Observer& observer) {
-        const std::string key = fmt::format("{} {} {}", input.versions.points, valueText(options.at("atlas")),
-                                            valueText(options.at("uvs")));
-        if (key == atlas_from_) return false;
-        const auto begin = Clock::now();
-        atlas_from_.clear();
-        lit_.reset();
-        const Object& object = *input.object;
-        const AtlasOptions wanted = atlasOptions(options, input.threads);
-        atlas_ = input.points_cache ? cachedAtlas(object.mesh, object.content_hash, wanted,
-                                                  atlasesBeside(*input.points_cache), observer)
-                                    : makeAtlas(object.mesh, wanted, observer);
-        map_ = mapTexels(input.object->mesh, atlas_);
-        atlas_from_ = key;
-        stage_ms_["atlas"] = milliseconds(begin);
-        return true;
-    }
-
-    bool refreshLight(const RenderInput& input, bool surface, Observer& observer) {
-        if (!surface && lit_ && seen_.light == input.versions.light) return false;
-        const auto begin = Clock::now();
-        if (lit_)
-            lit_->light(input, observer);
-        else
-            lit_.emplace(atlas_, map_, input, observer);
-        stage_ms_["light"] = milliseconds(begin);
-        return true;
-    }
-
     static std::string now(const RenderInput& input, const ParamValues& options) {
         return fmt::format("{} {} {} {}", valueText(options.at("samples")), valueText(options.at("own_light")),
                            input.light.beams, input.light.seed);
@@ -155,12 +118,12 @@ private:
     void draw(const RenderInput& input, const ParamValues& options, Observer& observer) {
         const auto begin = Clock::now();
         drawn_from_.clear();
-        samples_ = lit_->draw(input,
-                              {.count = static_cast<std::size_t>(std::get<double>(options.at("samples"))),
-                               .own_light = std::get<bool>(options.at("own_light")),
-                               .beams = input.light.beams,
-                               .seed = input.light.seed},
-                              device_ ? &*device_ : nullptr, observer);
+        samples_ = texture_->lit().draw(input,
+                                        {.count = static_cast<std::size_t>(std::get<double>(options.at("samples"))),
+                                         .own_light = std::get<bool>(options.at("own_light")),
+                                         .beams = input.light.beams,
+                                         .seed = input.light.seed},
+                                        device_ ? &*device_ : nullptr, observer);
         ++draws_;
         drawn_from_ = now(input, options);
         points_.reset();
@@ -169,12 +132,15 @@ private:
 
     // The area of the disc over which R_d is averaged.
     double cellArea(const ParamValues& options) const {
-        const double texel = area() / static_cast<double>(map_.size());
+        const double texel = area() / static_cast<double>(texture_->map().size());
         const double sample = samples_.lit_area_mm2 / static_cast<double>(samples_.points.positions.size());
         return std::max(texel, std::get<double>(options.at("footprint")) * sample);
     }
 
-    double area() const { return std::accumulate(map_.cells.areas.begin(), map_.cells.areas.end(), 0.0); }
+    double area() const {
+        const std::vector<float>& areas = texture_->map().cells.areas;
+        return std::accumulate(areas.begin(), areas.end(), 0.0);
+    }
 
     void prepareRadial(const ParamValues& options) {
         const auto begin = Clock::now();
@@ -231,10 +197,9 @@ private:
 
     gl::Context* context_;
     std::optional<TextureGl> device_;  // where cells are chosen and radial models summed, if not on the CPU
-    Atlas atlas_;
-    TexelMap map_;
-    std::string atlas_from_, drawn_from_, table_from_;
-    std::optional<LitAtlas> lit_;
+    std::shared_ptr<LitTexture> texture_;
+    std::string drawn_from_, table_from_;
+    std::uint64_t light_ = 0;  // that samples were drawn from
     TextureSamples samples_;
     std::uint64_t draws_ = 0;
     std::optional<std::uint64_t> receivers_of_;  // the view that they are of
@@ -250,7 +215,6 @@ private:
     std::unique_ptr<Technique> directional_;
 
     RenderInput input_;
-    RenderInput::Versions seen_;
     std::map<std::string, double> stage_ms_;
     std::vector<Rgbf> exitance_;
 };
@@ -294,6 +258,12 @@ std::vector<Param> textureSpaceOptions() {
          .doc = "over the samples: by trees to 0.1 %, or one by one, as OpenGL always does"}};
 }
 
-std::unique_ptr<Technique> makeTextureSpace(gl::Context* context) { return std::make_unique<TextureSpace>(context); }
+std::unique_ptr<Technique> makeTextureSpace(gl::Context* context) {
+    return makeTextureSpace(context, std::make_shared<LitTexture>());
+}
+
+std::unique_ptr<Technique> makeTextureSpace(gl::Context* context, std::shared_ptr<LitTexture> texture) {
+    return std::make_unique<TextureSpace>(context, std::move(texture));
+}
 
 }  // namespace searchlight

@@ -9,10 +9,15 @@
 
 namespace searchlight {
 
+class LitTexture;
+
 /// "samples", "atlas", "uvs", "footprint", "own_light", "sum".
 std::vector<Param> textureSpaceOptions();
 
 /// On the CPU, or where a context is given the cells are chosen and the samples summed there.
 std::unique_ptr<Technique> makeTextureSpace(gl::Context* context);
+
+/// The same on a texture that others read too; each start() brings it up to date.
+std::unique_ptr<Technique> makeTextureSpace(gl::Context* context, std::shared_ptr<LitTexture> texture);
 
 }  // namespace searchlight

@@ -44,7 +44,7 @@ std::vector<Param> lightViewOptions() {
             {.name = "light_map",
              .type = ParamType::integer,
              .min = 16,
-             .max = 8192,
+             .max = 2048,
              .value = 512.0,
              .doc = "texels along the longer side of what a light sees"}};
 }

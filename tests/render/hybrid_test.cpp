@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <numbers>
 
+#include "base/error.h"
 #include "render/hybrid/split.h"
 #include "render/renderer.h"
 #include "scene/materials.h"
@@ -146,7 +147,8 @@ TEST_F(HybridTest, KeepsItsBandOnScans) {
     if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no scans at hand";
     scene_.object = folder + "bunny_7k_closed.obj";
     scene_.scale = 50;
-    expectBand(0.004, 0.02);
+    scene_.lights = {DirectionalLight{}};
+    expectBand(0.005, 0.025);
     scene_.object = folder + "lee_perry_smith_18k_uv.obj";
     scene_.scale = 200;
     scene_.material.id = "skin1";
@@ -164,16 +166,40 @@ TEST_F(HybridTest, AddsLightsUp) {
     const std::vector<Rgb> both = take("tsm", options);
     std::vector<Rgb> sum;
     for (std::size_t i = 0; i < one.size(); ++i) sum.push_back(one[i] + other[i]);
-    EXPECT_LT(between(both, sum).rmse, 1e-5);  // floats
+    EXPECT_LT(between(both, sum).rmse, 2e-4);  // what is asked of the sum over grazed places, which bring 1 %
 }
 
 TEST_F(HybridTest, TakesLightsWithoutAView) {
     scene_.object = "torus_knot";
     scene_.lights = {DirectionalLight{.direction = {1, 1, 1}, .angle_deg = 15}};
     // Folds that none of 14 directions sees, and their borders.
-    const Difference found = between(take("tsm", {{"light_map", 256.0}}), truth());
+    settings_.width = 60, settings_.height = 45;
+    const Difference found = between(take("tsm", {{"light_map", 128.0}}), truth());
     EXPECT_LT(std::abs(found.mean), 0.02);
     EXPECT_LT(found.rmse, 0.05);
+}
+
+TEST_F(HybridTest, FindsTheSameLightByTangentPlanes) {
+    scene_.object = "torus_knot";
+    settings_.width = 40, settings_.height = 30;
+    const Difference found =
+        between(take("hybrid", {{"local", std::string("tangent")}, {"local_samples", 101.0}}), truth());
+    // Noise of 101 lines per receiver, and half a per cent for texels.
+    EXPECT_LT(std::abs(found.mean), 0.012);
+    EXPECT_LT(found.rmse, 0.1);
+}
+
+TEST_F(HybridTest, StopsWhenAsked) {
+    struct Stopped : Observer {
+        bool cancelled() const override { return true; }
+    } stopped;
+    for (const char* technique : {"tsm", "hybrid"}) {
+        settings_.technique = technique;
+        renderer_.setScene(scene_);
+        renderer_.setSettings(settings_);
+        EXPECT_THROW(renderer_.render(stopped), Error);
+        EXPECT_GT(luminance(take(technique, {})[60 * 120 + 60]), 0);  // and goes on afterwards
+    }
 }
 
 TEST_F(HybridTest, IsBlackWithoutLight) {

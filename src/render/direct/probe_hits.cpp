@@ -44,6 +44,7 @@ ProbeHits hitsOf(const Probes& probes, const VisibleSurface& visible, std::size_
                 const double density = probes.density(offset, toDouble(hit.normal), frames[receiver - begin]);
                 if (density > 0) {
                     found.hits.push_back({receiver, 1 / (density * per_receiver)});
+                    found.places.push_back(place);
                     found.points.positions.push_back(toFloat(at));
                     found.points.normals.push_back(toFloat(walk.shadingNormal(place)));
                 }
@@ -78,6 +79,7 @@ ProbeHits findHits(const Probes& probes, const VisibleSurface& visible, std::siz
     ProbeHits all;
     for (const ProbeHits& part : parts) {
         all.hits.insert(all.hits.end(), part.hits.begin(), part.hits.end());
+        all.places.insert(all.places.end(), part.places.begin(), part.places.end());
         all.points.positions.insert(all.points.positions.end(), part.points.positions.begin(),
                                     part.points.positions.end());
         all.points.normals.insert(all.points.normals.end(), part.points.normals.begin(), part.points.normals.end());

@@ -22,6 +22,7 @@ struct ProbeHit {
 struct ProbeHits {
     std::vector<ProbeHit> hits;
     ChosenPoints points;
+    std::vector<SurfacePlace> places;  ///< of the points
 };
 
 /// `per_receiver` stratified probes for each of receivers [begin, end) of `visible`. The outcome does not depend on

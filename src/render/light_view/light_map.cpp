@@ -13,8 +13,10 @@ namespace searchlight {
 
 namespace {
 
-// What is seen at less has no area that a texel could tell; its light, which grazes it, is as little.
+// What is seen at less has no area that a texel could tell.
 constexpr double least_cosine = 0.05;
+// Places on triangles that are not seen stand no further apart than this part of the object's longest side.
+constexpr double grazed_spacing = 1.0 / 128;
 // A point light nearer to the object's centre, in radii of its bounding sphere, would need a map wider than 110
 // degrees.
 constexpr double least_distance = 1.22;
@@ -141,30 +143,96 @@ bool sees(const LightMap& map, Vec3 position) {
     return at.z < depth + map.texel * (1 + 0.5 * (std::abs(cell[1]) + std::abs(cell[2])) / map.texel);
 }
 
-// The light of `scene` on what a view sees, into its map; where `counts` says so. False when all is dark.
+// What of `seen` counts.
 template <class Counts>
-bool lightUp(const RenderInput& input, const Scene& scene, LightView& view, Observer& observer, const Counts& counts) {
+Seen chosen(const Seen& seen, const Counts& counts) {
+    Seen some;
+    for (std::size_t k = 0; k < seen.cells.size(); ++k) {
+        if (!counts(k)) continue;
+        some.cells.push_back(seen.cells[k]);
+        some.positions.push_back(seen.positions[k]);
+        some.normals.push_back(seen.normals[k]);
+        some.geometric.push_back(seen.geometric[k]);
+    }
+    return some;
+}
+
+// The light of `scene` on `seen`, into its map. False when all is dark.
+bool lightUp(const RenderInput& input, const Scene& scene, const Seen& seen, LightMap& map, Observer& observer) {
+    if (seen.cells.empty()) return false;
     IrradianceOptions options = input.light;
     options.beams = false;
-    const Seen& seen = view.seen;
     const std::vector<Rgbf> transmitted =
         computeIrradiance({seen.positions, seen.normals}, scene, *input.object, input.rays, options, observer)
             .transmitted;
     bool lit = false;
     for (std::size_t k = 0; k < seen.cells.size(); ++k) {
-        if (transmitted[k] == Rgbf{} || !counts(k)) continue;
+        if (transmitted[k] == Rgbf{}) continue;
         const Vec3 position = toDouble(seen.positions[k]), normal = toDouble(seen.geometric[k]);
         // dA is du dv over the cosine; from a point z^3 / h du dv, with h the distance of its plane from the point.
-        const double area =
-            view.map.central ? 1 / dot(normal, position - view.map.origin) : 1 / dot(normal, view.map.forward);
+        const double area = map.central ? 1 / dot(normal, position - map.origin) : 1 / dot(normal, map.forward);
         const Rgbf light = toFloat(std::abs(area) * toDouble(transmitted[k]));
-        float* cell = &view.map.cells[seen.cells[k]];
+        float* cell = &map.cells[seen.cells[k]];
         cell[4] = light.r;
         cell[5] = light.g;
         cell[6] = light.b;
         lit = true;
     }
     return lit;
+}
+
+// Places on the triangles that a view does not see but whose corners may be lit: middles of equal parts.
+PointCloud grazedPlaces(const Object& object, const LightMap& map) {
+    const Mesh& mesh = object.mesh;
+    PointCloud places;
+    for (const auto& triangle : mesh.triangles) {
+        std::array<Vec3, 3> p, n;
+        for (std::size_t k = 0; k < 3; ++k) {
+            p[k] = toDouble(mesh.positions[triangle[k]]);
+            n[k] = toDouble(mesh.normals[triangle[k]]);
+        }
+        const Vec3 twice = cross(p[1] - p[0], p[2] - p[0]), to_light = towardsLight(map, p[0]);
+        const double area = 0.5 * length(twice);
+        if (!(area > 0) || dot(twice, to_light) >= 2 * area * least_cosine) continue;
+        if (std::ranges::none_of(n, [&](Vec3 corner) { return dot(corner, to_light) > 0; })) continue;
+        const double longest = std::max({length(p[1] - p[0]), length(p[2] - p[1]), length(p[0] - p[2])});
+        const int parts =
+            std::clamp(static_cast<int>(std::ceil(longest / (grazed_spacing * object.longest_mm))), 1, 64);
+        const auto add = [&](double u, double v) {
+            const auto at = [&](const std::array<Vec3, 3>& of) {
+                return of[0] + u * (of[1] - of[0]) + v * (of[2] - of[0]);
+            };
+            const Vec3 normal = at(n);
+            const double size = length(normal);
+            if (!(size > 1e-6)) return;
+            places.positions.push_back(toFloat(at(p)));
+            places.normals.push_back(toFloat((1 / size) * normal));
+            places.areas.push_back(static_cast<float>(area / (parts * parts)));
+        };
+        for (int i = 0; i < parts; ++i)
+            for (int j = 0; i + j < parts; ++j) {
+                add((i + 1 / 3.0) / parts, (j + 1 / 3.0) / parts);
+                if (i + j + 1 < parts) add((i + 2 / 3.0) / parts, (j + 2 / 3.0) / parts);
+            }
+    }
+    return places;
+}
+
+void addGrazed(const RenderInput& input, const Scene& scene, const LightMap& map, Observer& observer, LightMaps& to) {
+    const PointCloud places = grazedPlaces(*input.object, map);
+    if (places.positions.empty()) return;
+    IrradianceOptions options = input.light;
+    options.beams = false;
+    const std::vector<Rgbf> light =
+        computeIrradiance({places.positions, places.normals}, scene, *input.object, input.rays, options, observer)
+            .transmitted;
+    for (std::size_t i = 0; i < light.size(); ++i) {
+        if (light[i] == Rgbf{}) continue;
+        to.grazed.positions.push_back(places.positions[i]);
+        to.grazed.normals.push_back(places.normals[i]);
+        to.grazed.areas.push_back(places.areas[i]);
+        to.grazed_light.push_back(light[i]);
+    }
 }
 
 // Where a light looks from, if it does.
@@ -200,10 +268,6 @@ LightMaps lightMaps(const RenderInput& input, int resolution, Observer& observer
     LightMaps result;
     Scene spread = *input.scene;
     spread.lights.clear();
-    const auto keep = [&](LightView& view) {
-        result.texels += view.seen.cells.size();
-        result.maps.push_back(std::move(view.map));
-    };
     for (const Light& light : input.scene->lights) {
         const Place place = placeOf(light, *input.object);
         if (!place.has_view) {
@@ -214,7 +278,9 @@ LightMaps lightMaps(const RenderInput& input, int resolution, Observer& observer
         Scene scene = *input.scene;
         scene.lights = {light};
         LightView view = viewOf(place.frame, input, resolution, observer);
-        if (lightUp(input, scene, view, observer, [](std::size_t) { return true; })) keep(view);
+        addGrazed(input, scene, view.map, observer, result);
+        result.texels += view.seen.cells.size();
+        if (lightUp(input, scene, view.seen, view.map, observer)) result.maps.push_back(std::move(view.map));
     }
     result.spread_lights = static_cast<int>(spread.lights.size());
     if (spread.lights.empty()) return result;
@@ -223,6 +289,7 @@ LightMaps lightMaps(const RenderInput& input, int resolution, Observer& observer
         views.push_back(viewOf(frameOf(false, {}, -1 * direction), input, resolution, observer));
     result.views += static_cast<int>(views.size());
     for (std::size_t i = 0; i < views.size(); ++i) {
+        if (observer.cancelled()) throw interruptedError();
         const auto countsHere = [&](std::size_t k) {
             const Vec3 normal = toDouble(views[i].seen.geometric[k]), position = toDouble(views[i].seen.positions[k]);
             const double here = -dot(normal, views[i].map.forward);
@@ -233,14 +300,12 @@ LightMaps lightMaps(const RenderInput& input, int resolution, Observer& observer
             }
             return true;
         };
-        if (lightUp(input, spread, views[i], observer, countsHere)) result.texels += views[i].seen.cells.size();
+        const Seen here = chosen(views[i].seen, countsHere);
+        result.texels += here.cells.size();
+        // The other views read this one's depth, not its light.
+        LightMap lit = views[i].map;
+        if (lightUp(input, spread, here, lit, observer)) result.maps.push_back(std::move(lit));
         observer.progress("light maps", i + 1, views.size(), "views");
-    }
-    for (LightView& view : views) {
-        bool lit = false;
-        for (std::size_t k = 4; k < view.map.cells.size() && !lit; k += LightMap::floats)
-            lit = view.map.cells[k] > 0 || view.map.cells[k + 1] > 0 || view.map.cells[k + 2] > 0;
-        if (lit) result.maps.push_back(std::move(view.map));
     }
     return result;
 }
