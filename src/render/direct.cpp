@@ -14,6 +14,7 @@
 #include "render/direct/model_sum.h"
 #include "render/direct/probe_hits.h"
 #include "render/direct/probes.h"
+#include "render/direct/walked_single.h"
 #include "render/exitance/fine_cell.h"
 #include "render/exitance_sum.h"
 
@@ -40,6 +41,8 @@ constexpr std::size_t queries_per_batch = 65'536;
 constexpr std::size_t table_points = 16'384, surrounded_points = 4'096, model_points = 2'048;
 // Of these, how many a block of receivers takes per pass where each is a query of the model.
 constexpr std::size_t model_choice = 128;
+// Walks of single scattering per channel and pass: about as long as a pass of points.
+constexpr std::uint64_t walks_per_pass = 8'192;
 
 int whole(const ParamValues& options, std::string_view name) {
     return static_cast<int>(std::get<double>(options.find(name)->second));
@@ -97,6 +100,9 @@ public:
         if (sampling == "probes" && !input.profile)
             throw usageError("probes reach as far as a profile does, and this model reads directions",
                              "use --sampling both or area, or --normal-beam");
+        const bool walked = std::get<std::string>(options.find("single_scattering")->second) == "walked";
+        if (walked && input.model->file.single_scattering)
+            throw usageError("the model has single scattering of its own", "use --single-scattering model");
         if (!walk_ || input.versions.points != seen_points_) {
             walk_.emplace(input.object->mesh);
             even_.emplace(input.object->mesh, *walk_);
@@ -117,6 +123,8 @@ public:
         if (by_points_) points_profile_ = shares_.ofPoints(profile_);
         table_.reset();
         if (input.profile && by_points_) table_.emplace(points_profile_, fineCellArea(profile_));
+        single_.reset();
+        if (walked && !input.visible->positions.empty()) single_.emplace(input);
         receivers_ = ReceiverBlocks(input.visible->positions);
         const std::size_t count = input.visible->positions.size();
         sums_.assign(count, {});
@@ -125,7 +133,7 @@ public:
         standard_error_.assign(count, {});
         done_ = 0;
         interactions_ = 0;
-        points_ms_ = probes_ms_ = 0;
+        points_ms_ = probes_ms_ = single_ms_ = 0;
     }
 
     bool step(Observer& observer) override {
@@ -134,6 +142,7 @@ public:
         const std::uint64_t seed = RandomStream(input_.light.seed, static_cast<std::uint64_t>(done_)).next();
         if (by_points_) addPoints(seed, observer);
         if (probes_) addProbes(seed + 1, observer);
+        if (single_) addSingle(seed, observer);
         ++done_;
         finishStep();
         observer.progress("direct", static_cast<std::uint64_t>(done_), static_cast<std::uint64_t>(steps_), "steps");
@@ -144,11 +153,16 @@ public:
     std::span<const Rgbf> standardError() const override { return standard_error_; }
 
     TechniqueReport report() const override {
-        return {.stage_ms = {{"points", points_ms_}, {"probes", probes_ms_}},
-                .interactions = interactions_,
-                .standard_error = relativeError(),
-                .approximates = "nothing: its error is noise, and known",
-                .device = input_.profile ? "cpu" : input_.evaluator->backend()};
+        TechniqueReport report{.stage_ms = {{"points", points_ms_}, {"probes", probes_ms_}},
+                               .interactions = interactions_,
+                               .standard_error = relativeError(),
+                               .approximates = "nothing: its error is noise, and known",
+                               .device = input_.profile ? "cpu" : input_.evaluator->backend()};
+        if (single_) {
+            report.stage_ms["single_scattering"] = single_ms_;
+            report.approximates = "single scattering is a mean over cells of about four pixels; else nothing";
+        }
+        return report;
     }
 
 private:
@@ -293,6 +307,12 @@ private:
         batch.flush();
     }
 
+    void addSingle(std::uint64_t seed, Observer& observer) {
+        const auto begin = Clock::now();
+        single_->addTo(step_, walks_per_pass * static_cast<std::uint64_t>(passes_), seed, observer);
+        single_ms_ += milliseconds(begin);
+    }
+
     void finishStep() {
         const double n = done_;
         for (std::size_t i = 0; i < step_.size(); ++i) {
@@ -332,6 +352,7 @@ private:
     Shares shares_;
     std::optional<RadialTable> table_;
     std::optional<ModelEvaluators> evaluators_;  // of a model that is no table
+    std::optional<WalkedSingle> single_;
     ReceiverBlocks receivers_{{}};
     std::array<std::vector<float>, 3> block_sums_;
     bool by_points_ = true;
@@ -339,7 +360,7 @@ private:
     int steps_ = 0, done_ = 0;
     std::size_t points_per_pass_ = 0;
     std::uint64_t interactions_ = 0;
-    double points_ms_ = 0, probes_ms_ = 0;
+    double points_ms_ = 0, probes_ms_ = 0, single_ms_ = 0;
     std::vector<Rgb> step_, sums_, squares_;
     std::vector<Rgbf> exitance_, standard_error_;
 };
@@ -368,7 +389,12 @@ std::vector<Param> directOptions() {
          .value = 0.0,
          .doc =
              "points that are drawn evenly over the surface in a pass; 0: 16384, 4096 for shadowed surroundings, 2048 "
-             "for a model that reads directions"}};
+             "for a model that reads directions"},
+        {.name = "single_scattering",
+         .type = ParamType::choice,
+         .value = std::string("model"),
+         .choices = {"model", "walked"},
+         .doc = "as the model has it, or walked through a closed mesh and added to a model that has none"}};
 }
 
 std::unique_ptr<Technique> makeDirect(gl::Context*) { return std::make_unique<Direct>(); }

@@ -3,12 +3,15 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/error.h"
 #include "io/image_file.h"
 #include "model/plane.h"
 #include "render/direct/even_points.h"
 #include "render/direct/probe_hits.h"
+#include "render/direct/walked_single.h"
 #include "render/renderer.h"
 #include "scene/materials.h"
+#include "transport/mesh/first_orders.h"
 
 namespace searchlight {
 namespace {
@@ -65,7 +68,9 @@ struct LitPlane {
     std::unique_ptr<Technique> run(const std::string& sampling, double spp) {
         std::unique_ptr<Technique> technique = makeDirect(nullptr);
         Observer quiet;
-        technique->start(input, {{"spp", spp}, {"sampling", sampling}, {"pass_points", 512.0}}, quiet);
+        technique->start(input,
+                         {{"spp", spp}, {"sampling", sampling}, {"pass_points", 512.0}, {"single_scattering", "model"}},
+                         quiet);
         while (!technique->step(quiet)) {
         }
         return technique;
@@ -212,6 +217,55 @@ TEST(Direct, DrawsDirectionsFromSurroundingsThatTheObjectShadows) {
         sum += images.truth.pixels[i].g;
     }
     EXPECT_NEAR(off / sum, 0, 0.02);
+}
+
+// Everything around a sphere is equally bright: each place leaves what walks under uniform light leave on the mean.
+TEST(WalkedSingle, IsThatOfUniformLightOnASphere) {
+    const std::string path = testing::TempDir() + "walked_single.pfm";
+    writeImage(path, {Image(8, 4, {1, 1, 1, 1})});
+    Scene scene;
+    scene.object = "sphere";
+    scene.scale = 4;
+    scene.lights = {EnvironmentLight{.path = path}};
+    const Object object = placeObject(scene);
+    const RayScene rays(object.mesh);
+    const Medium medium = makeMedium({0.3, 0.1, 0.5}, {0.5, 0.9, 0}, {0.2, 0.5, 0}, 1.3);
+    const View view = makeView(framedCamera(scene.camera, object, 24, 24), object, 24, 24);
+    Observer quiet;
+    const VisibleSurface visible = traceVisible(view, object, rays, {}, quiet);
+    RenderInput input;
+    input.scene = &scene;
+    input.object = &object;
+    input.visible = &visible;
+    input.view = &view;
+    input.medium = &medium;
+    const std::uint64_t walks = 40'000;
+    std::vector<Rgb> exitance(visible.positions.size());
+    WalkedSingle(input).addTo(exitance, walks, 7, quiet);
+    Rgb mean;
+    for (const Rgb& value : exitance) mean = mean + (1.0 / static_cast<double>(exitance.size())) * value;
+    const MeshBody body(object.mesh, {.cell_area_mm2 = 1, .shortest_mfp = 1, .regions = false});
+    for (int c = 0; c < 2; ++c) {
+        const FirstOrders uniform = walkFirstOrders(body, medium, c, UniformLight{}, {.walks = walks}, quiet);
+        double flux = 0;
+        for (std::size_t cell = 0; cell < body.cellCount(); ++cell) flux += body.cellArea(cell) * uniform.single[cell];
+        // Some 10,000 exits are seen, of weights within a factor of two or three: 1 to 2 % of noise.
+        EXPECT_NEAR(mean[c], flux / body.area(), 0.06 * flux / body.area());
+    }
+    EXPECT_EQ(mean.b, 0);  // does not scatter
+}
+
+TEST(Direct, RefusesToAddSingleScatteringToAModelThatHasIt) {
+    LitPlane plane("dipole+single");
+    Observer quiet;
+    try {
+        makeDirect(nullptr)->start(
+            plane.input, {{"spp", 1.0}, {"sampling", "auto"}, {"pass_points", 0.0}, {"single_scattering", "walked"}},
+            quiet);
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("--single-scattering model"), std::string::npos);
+    }
 }
 
 TEST(EvenPoints, AreAsDenseEverywhereAndStratified) {
