@@ -18,7 +18,7 @@ void drawEntry(std::vector<Shape>& shapes, const LegendEntry& entry, double left
     const SeriesLook& look = entry.look;
     if (entry.style == SeriesStyle::points) {
         if (entry.band) shapes.push_back(Polyline{{{center, middle - 6}, {center, middle + 6}}, {look.color, 1}});
-        shapes.push_back(Circle{{center, middle}, 2.8, look.color});
+        drawMarker(shapes, {center, middle}, 2.8, look);
     } else {
         const Rect band{left, middle - 5, right, middle + 5};
         if (entry.band) shapes.push_back(Box{band, look.color, {}, look.band_opacity});
@@ -28,6 +28,11 @@ void drawEntry(std::vector<Shape>& shapes, const LegendEntry& entry, double left
 }
 
 }  // namespace
+
+void drawMarker(std::vector<Shape>& shapes, Point center, double radius, const SeriesLook& look) {
+    shapes.push_back(Circle{center, radius, look.color});
+    if (!look.dashes.empty()) shapes.push_back(Circle{center, radius - 1, "#ffffff"});
+}
 
 LegendSize legendSize(std::span<const LegendEntry> entries) {
     if (entries.empty()) return {};

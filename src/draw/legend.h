@@ -20,6 +20,9 @@ struct SeriesLook {
     double band_opacity = 0.16;
 };
 
+/// A point of a series: hollow where its line would be dashed.
+void drawMarker(std::vector<Shape>& shapes, Point center, double radius, const SeriesLook& look);
+
 struct LegendEntry {
     std::string label;
     SeriesStyle style = SeriesStyle::line;

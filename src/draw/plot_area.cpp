@@ -93,7 +93,15 @@ void PlotArea::drawAxes(std::vector<Shape>& shapes) const {
     for (const Tick& tick : x_ticks_.ticks) {
         const double x = x_(tick.value), length = tick.major ? major_tick : minor_tick;
         shapes.push_back(thinLine({x, frame_.bottom}, {x, frame_.bottom - length}, frame_color));
-        label(tick, {x, frame_.bottom + 17}, Anchor::middle);
+        if (figure_.x.names.empty()) {
+            label(tick, {x, frame_.bottom + 17}, Anchor::middle);
+            continue;
+        }
+        double base = frame_.bottom + 17;
+        for (std::string& line : wrapText(tick.label, x_(1) - x_(0) - 6, tick_size)) {
+            shapes.push_back(Text{{x, base}, std::move(line), tick_size, Anchor::middle, ink});
+            base += tick_size + 1;
+        }
     }
     for (const Tick& tick : y_ticks_.ticks) {
         const double y = y_(tick.value), length = tick.major ? major_tick : minor_tick;
@@ -192,7 +200,7 @@ void PlotArea::drawMarkers(std::vector<Shape>& shapes, const Series& series, Dra
     for (size_t i = 0; i < series.y.size(); ++i) {
         const Point center{x_(series.x[i]), y_(series.y[i])};
         if (!frame_.contains(center)) continue;
-        shapes.push_back(Circle{center, radius, lookOf(series).color});
+        drawMarker(shapes, center, radius, lookOf(series));
         data.lines.push_back(center);
     }
 }

@@ -324,7 +324,6 @@ PaperPlate figure9(const PaperRun& run) {
     Figure rmse, ssim;
     rmse.title = "RMSE, relative";
     ssim.title = "SSIM";
-    rmse.x = ssim.x = {"Material", ""};
     rmse.y = {"RMSE over the mean", "%"};
     ssim.y = {"SSIM of perceived luminance", ""};
     rmse.x.min = ssim.x.min = -0.6;
@@ -336,7 +335,8 @@ PaperPlate figure9(const PaperRun& run) {
                                                                           : single  ? " + single"
                                                                                     : ", without"),
                           .style = SeriesStyle::points,
-                          .color = static_cast<int>(single ? m : m + shownModels().size())};
+                          .color = static_cast<int>(m),
+                          .dashed = !single};
             rmse.series.push_back(series);
             ssim.series.push_back(series);
         }
