@@ -5,7 +5,7 @@
 #include <set>
 
 #include "job/paper/paper.h"
-#include "job/paper/pictures.h"
+#include "job/paper/paper_studio.h"
 
 namespace searchlight {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "job/paper/paper.h"
-#include "job/paper/pictures.h"
+#include "job/paper/paper_studio.h"
 
 namespace searchlight {
 

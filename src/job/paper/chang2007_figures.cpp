@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "geometry/atlas/atlas_cache.h"
 #include "job/paper/chang2007.h"
-#include "job/paper/pictures.h"
+#include "job/paper/paper_studio.h"
 #include "job/unit_progress.h"
 
 namespace searchlight {

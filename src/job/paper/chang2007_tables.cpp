@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "job/paper/chang2007.h"
-#include "job/paper/pictures.h"
+#include "job/paper/paper_studio.h"
 #include "job/unit_progress.h"
 
 namespace searchlight {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "job/paper/paper.h"
-#include "job/paper/pictures.h"
+#include "job/paper/paper_studio.h"
 #include "job/render/render_material.h"
 #include "job/unit_progress.h"
 #include "model/plane.h"

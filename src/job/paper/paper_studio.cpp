@@ -1,4 +1,4 @@
-#include "job/paper/pictures.h"
+#include "job/paper/paper_studio.h"
 
 #include <fmt/format.h>
 
