@@ -36,8 +36,8 @@ struct LaneKernels {
 
 class KernelDock : public QWidget {
 public:
-    explicit KernelDock(Desk& desk) : desk_(desk), lane_(std::make_shared<LaneKernels>()), seen_(new Seen(this)) {
-        connect(seen_, &Seen::changed, this, &KernelDock::setSeen);
+    explicit KernelDock(Desk& desk) : desk_(desk), lane_(std::make_shared<LaneKernels>()), seen_(this) {
+        connect(&seen_, &Seen::changed, this, &KernelDock::setSeen);
         auto* layout = new QVBoxLayout(this);
         layout->setContentsMargins(0, 0, 0, 0);
         layout->setSpacing(0);
@@ -186,7 +186,7 @@ private:
     // still shows kernels on its way.
     void refresh() {
         arrange();
-        if (!seen_->now()) return;
+        if (!seen_.now()) return;
         if (working_) {
             pending_ = true;
             return;
@@ -289,7 +289,7 @@ private:
     KernelExportButton* export_ = nullptr;
     QLabel* status_ = nullptr;
     int shown_taps_ = 0;
-    Seen* seen_;
+    Seen seen_;
     bool working_ = false, pending_ = false;
 };
 

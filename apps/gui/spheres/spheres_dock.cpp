@@ -81,8 +81,8 @@ QString countText(double value) {
 
 class SpheresDock : public QWidget {
 public:
-    explicit SpheresDock(Desk& desk) : desk_(desk), lane_(std::make_shared<LaneSpheres>()), seen_(new Seen(this)) {
-        connect(seen_, &Seen::changed, this, &SpheresDock::setSeen);
+    explicit SpheresDock(Desk& desk) : desk_(desk), lane_(std::make_shared<LaneSpheres>()), seen_(this) {
+        connect(&seen_, &Seen::changed, this, &SpheresDock::setSeen);
         auto* layout = new QVBoxLayout(this);
         layout->setContentsMargins(0, 0, 0, 0);
         layout->setSpacing(0);
@@ -146,7 +146,7 @@ private:
 
     // As in the plot: a step that has begun is shown before the next wish begins.
     void refresh() {
-        if (!seen_->now()) return;
+        if (!seen_.now()) return;
         if (working_) {
             pending_ = true;
             return;
@@ -235,7 +235,7 @@ private:
     SphereView* view_ = nullptr;
     QLabel* status_ = nullptr;
     QTimer resize_;
-    Seen* seen_;
+    Seen seen_;
     bool working_ = false, pending_ = false;
 };
 

@@ -5,7 +5,7 @@
 
 namespace searchlight::gui {
 
-Seen::Seen(QWidget* body) : QObject(body), body_(body) { body->installEventFilter(this); }
+Seen::Seen(QWidget* body) : body_(body) { body->installEventFilter(this); }
 
 bool Seen::eventFilter(QObject* watched, QEvent* event) {
     if (event->type() == QEvent::Show) {

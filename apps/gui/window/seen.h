@@ -9,7 +9,8 @@ class Seen : public QObject {
     Q_OBJECT
 
 public:
-    /// Of the widget that a dock holds, or that stands alone; its child.
+    /// Of the widget that a dock holds, or that stands alone. A member of it, and no child: a widget that ends hides,
+    /// and whoever listens in it is gone by then.
     explicit Seen(QWidget* body);
 
     bool now() const { return now_; }
