@@ -60,6 +60,8 @@ inline const std::vector<Field<Camera>> camera_fields{
           "x, y, z looked at, in longest sides from the centre of the bounding box"),
 };
 
+inline constexpr double least_ld_mm = 1e-9;
+
 inline const std::vector<Field<SceneMaterial>> material_fields{
     field("id", &SceneMaterial::id, ParamType::path, "", 0, 0, "a measured material, in place of the numbers below"),
     field("sigma_a", &SceneMaterial::sigma_a, ParamType::channels, "1/mm", 0, unlimited, "absorption coefficient"),
@@ -68,7 +70,8 @@ inline const std::vector<Field<SceneMaterial>> material_fields{
     field("g", &SceneMaterial::g, ParamType::channels, "", -1, 1, "mean cosine of the phase function"),
     field("Rdr", &SceneMaterial::Rdr, ParamType::channels, "", 0, 1,
           "total diffuse reflectance, inverted by the model"),
-    field("ld", &SceneMaterial::ld, ParamType::channels, "mm", 1e-9, unlimited, "diffuse mean free path, beside Rdr"),
+    field("ld", &SceneMaterial::ld, ParamType::channels, "mm", least_ld_mm, unlimited,
+          "diffuse mean free path, beside Rdr"),
     field("eta", &SceneMaterial::eta, ParamType::number, "", 0.25, 4, "refractive index, inside over outside"),
     field("scale", &SceneMaterial::scale, ParamType::number, "", 1e-6, 1e6,
           "lengths of the medium times this, so coefficients divided by it"),

@@ -69,6 +69,31 @@ TEST_F(DocksTest, APlotFollowsASliderThatMovesFast) {
     EXPECT_NE(seriesOf(0)->y[100], before);
 }
 
+// A diffuse mean free path below what a scene file takes is not written into one.
+TEST_F(DocksTest, CoefficientsWithoutATellableLengthKeepTheirForm) {
+    QToolButton* by_length = nullptr;
+    for (auto* button : window->findChildren<QToolButton*>())
+        if (button->text() == QStringLiteral("Rdr and ld")) by_length = button;
+    ASSERT_TRUE(by_length);
+    const auto edited = [&](double sigma_s) {
+        workspace.edit(QStringLiteral("Scattering"), {}, [&](State& state) {
+            state.scene.material = {.id = "", .sigma_a = {0.1}, .sigma_s = {sigma_s}};
+        });
+        bool told = false;
+        const auto heard = QObject::connect(&notices, &Notices::posted, [&](Notices::Level, const QString& text) {
+            told = told || text.contains(QStringLiteral("no diffuse mean free path"));
+        });
+        by_length->click();
+        EXPECT_TRUE(waitUntil([&] { return told || workspace.state().scene.material.inverted(); }));
+        QObject::disconnect(heard);
+        return told;
+    };
+    EXPECT_TRUE(edited(1e21));
+    EXPECT_FALSE(workspace.state().scene.material.inverted());
+    EXPECT_FALSE(edited(1));
+    EXPECT_TRUE(workspace.state().scene.material.inverted());
+}
+
 TEST_F(DocksTest, EachViewAndScaleIsDrawn) {
     auto* view = find<QComboBox>(window.get(), "plot.view");
     for (int i = 0; i < view->count(); ++i) {

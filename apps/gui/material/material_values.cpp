@@ -1,4 +1,6 @@
 // What the material dock shows of the material, and its change from coefficients to (Rdr, ld) and back.
+#include <fmt/format.h>
+
 #include <QLabel>
 #include <algorithm>
 #include <cmath>
@@ -11,6 +13,7 @@
 #include "gui/widgets/segments.h"
 #include "job/plot/subject.h"
 #include "model/inversion.h"
+#include "scene/scene_fields.h"
 
 namespace searchlight::gui {
 
@@ -47,6 +50,9 @@ void MaterialDock::setParametrisation(bool inverted) {
                 settings.push_back(name + "=" + valueText(value));
             const LoadedModel loaded = context.engine().load(job.scene.model.id, settings, "auto", medium);
             const InversionTarget target = inversionTarget(*loaded.evaluator, loaded.model, loaded.parameters, medium);
+            if (std::min({target.ld_mm.r, target.ld_mm.g, target.ld_mm.b}) < scene_format::least_ld_mm)
+                throw inputError("these coefficients have no diffuse mean free path that could be told from 0",
+                                 fmt::format("it is {:g} mm at least", scene_format::least_ld_mm));
             other.Rdr = list(target.Rdr);
             other.ld = list(target.ld_mm);
             other.g = {target.g};
