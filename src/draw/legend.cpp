@@ -30,8 +30,8 @@ void drawEntry(std::vector<Shape>& shapes, const LegendEntry& entry, double left
 }  // namespace
 
 void drawMarker(std::vector<Shape>& shapes, Point center, double radius, const SeriesLook& look) {
-    shapes.push_back(Circle{center, radius, look.color});
-    if (!look.dashes.empty()) shapes.push_back(Circle{center, radius - 1, "#ffffff"});
+    shapes.emplace_back(Circle{center, radius, look.color});
+    if (!look.dashes.empty()) shapes.emplace_back(Circle{center, radius - 1, "#ffffff"});
 }
 
 LegendSize legendSize(std::span<const LegendEntry> entries) {
