@@ -1,6 +1,7 @@
-// Speed of the walk inside a closed mesh on one core: collisions per CPU second with a ray for each flight, with
-// safe regions, and with large steps too, beside Embree's rate on the rays of the first. The mesh is the first
-// argument's PLY or OBJ file, or the built-in statue without one; the second argument is its length, 50 mm without one:
+// Speed of the walk inside a closed mesh on one core: collisions per CPU second with a ray for each flight,
+// with the grid for each, with safe regions, and with large steps too, beside Embree's rate on the rays of the first.
+// The mesh is the first argument's PLY or OBJ file, or the built-in statue without one; the second argument is its
+// length, 50 mm without one:
 //   build/release/bin/mesh_bench MESH [LENGTH]
 #include <benchmark/benchmark.h>
 
@@ -9,9 +10,9 @@
 #include <memory>
 #include <string>
 
+#include "base/random.h"
 #include "geometry/object.h"
 #include "transport/mesh/reference_body.h"
-#include "transport/walk/random.h"
 
 namespace searchlight {
 namespace {
@@ -31,20 +32,25 @@ const Mesh& mesh() {
 
 double cpuSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-const MeshBody& body(bool regions, double mfp) {
+enum class Tests { embree, grid, regions };
+
+const MeshBody& body(Tests tests, double mfp) {
     static std::unique_ptr<MeshBody> kept;
-    static bool kept_regions = false;
+    static Tests kept_tests = Tests::embree;
     static double kept_mfp = 0;
-    if (!kept || kept_regions != regions || kept_mfp != mfp)
-        kept = std::make_unique<MeshBody>(
-            mesh(), MeshBodyOptions{.cell_area_mm2 = 1, .shortest_mfp = mfp, .regions = regions, .threads = 1});
-    kept_regions = regions, kept_mfp = mfp;
+    if (!kept || kept_tests != tests || kept_mfp != mfp)
+        kept = std::make_unique<MeshBody>(mesh(), MeshBodyOptions{.cell_area_mm2 = 1,
+                                                                  .shortest_mfp = mfp,
+                                                                  .regions = tests == Tests::regions,
+                                                                  .grid_alone = tests == Tests::grid,
+                                                                  .threads = 1});
+    kept_tests = tests, kept_mfp = mfp;
     return *kept;
 }
 
-void walk(benchmark::State& state, const Medium& medium, double shortest_mfp, bool regions, bool large_steps,
+void walk(benchmark::State& state, const Medium& medium, double shortest_mfp, Tests tests, bool large_steps,
           double walks) {
-    const MeshBody& in = body(regions, shortest_mfp);
+    const MeshBody& in = body(tests, shortest_mfp);
     BodyOptions options{.walks = static_cast<std::uint64_t>(walks), .threads = 1, .large_steps = large_steps};
     Observer observer;
     double collisions = 0, flights = 0, rays = 0, entries = 0;
@@ -101,7 +107,7 @@ std::vector<Ray> flightsOf(const MeshBody& in, double mfp) {
 }
 
 void shortRays(benchmark::State& state, double mfp, bool batch) {
-    const MeshBody& in = body(false, mfp);
+    const MeshBody& in = body(Tests::embree, mfp);
     const std::vector<Ray> rays = flightsOf(in, mfp);
     std::vector<RayHit> hits(rays.size());
     double traced = 0;
@@ -125,15 +131,25 @@ const Medium forward = makeMedium({0.0021}, {21.9}, {0.9}, 1.5);
 
 BENCHMARK_CAPTURE(shortRays, one_at_a_time, 0.456, false)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(shortRays, packets, 0.456, true)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(walk, marble_red_ray_each, marble_red, 0.33, false, false, 1e6)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(walk, marble_red_regions, marble_red, 0.33, true, false, 2e6)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(walk, marble_red_large_steps, marble_red, 0.33, true, true, 2e6)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(walk, marble_blue_large_steps, marble_blue, 0.33, true, true, 1e6)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(walk, milk_green_regions, milk_green, 0.31, true, false, 1e6)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(walk, milk_green_large_steps, milk_green, 0.31, true, true, 1e6)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(walk, skin1_red_large_steps, skin1_red, 0.41, true, true, 1e6)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(walk, forward_g_09_regions, forward, 0.046, true, false, 1e5)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(walk, forward_g_09_large_steps, forward, 0.046, true, true, 1e5)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(walk, marble_red_ray_each, marble_red, 0.33, Tests::embree, false, 1e6)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(walk, marble_red_grid_each, marble_red, 0.33, Tests::grid, false, 1e6)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(walk, marble_red_regions, marble_red, 0.33, Tests::regions, false, 2e6)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(walk, marble_red_large_steps, marble_red, 0.33, Tests::regions, true, 2e6)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(walk, marble_blue_large_steps, marble_blue, 0.33, Tests::regions, true, 1e6)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(walk, milk_green_regions, milk_green, 0.31, Tests::regions, false, 1e6)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(walk, milk_green_large_steps, milk_green, 0.31, Tests::regions, true, 1e6)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(walk, skin1_red_large_steps, skin1_red, 0.41, Tests::regions, true, 1e6)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(walk, forward_g_09_regions, forward, 0.046, Tests::regions, false, 1e5)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(walk, forward_g_09_large_steps, forward, 0.046, Tests::regions, true, 1e5)
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace searchlight

@@ -19,10 +19,10 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "base/random.h"
 #include "geometry/object.h"
 #include "geometry/point_grid.h"
 #include "geometry/point_start.h"
-#include "geometry/random_stream.h"
 #include "geometry/surface_points.h"
 #include "io/shape_file.h"
 
@@ -80,7 +80,7 @@ Quality qualityOf(const Mesh& mesh, const PointCloud& cloud) {
     std::vector<Vec3f> dense(truth.size());
     for (std::size_t i = 0; i < dense.size(); ++i) dense[i] = toFloat(walk.position(truth[i]));
     const double dense_part = area / static_cast<double>(dense.size());
-    RandomStream random(7, 0);
+    SplitMix64 random = streamOf(7, 0);
     constexpr int waves = 12;
     for (int w = 0; w < waves; ++w) {
         const double z = 2 * random.uniform() - 1, turn = 2 * std::numbers::pi * random.uniform(),

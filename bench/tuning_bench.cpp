@@ -78,6 +78,9 @@ void table(const std::string& medium, const HalfSpaceWalk& walk, double seconds)
           Choice{"far 0", &BestTuning::far, 0.0}, Choice{"far .8", &BestTuning::far, 0.8},
           Choice{"total .005", &BestTuning::total, 0.005}, Choice{"total .08", &BestTuning::total, 0.08},
           Choice{"depth .1", &BestTuning::depth, 0.1}, Choice{"depth .6", &BestTuning::depth, 0.6},
+          Choice{"ahead 0", &BestTuning::ahead, 0.0}, Choice{"ahead 1", &BestTuning::ahead, 1.0},
+          Choice{"shallow 0", &BestTuning::shallow, 0.0}, Choice{"shallow 5", &BestTuning::shallow, 5.0},
+          Choice{"shallow 25", &BestTuning::shallow, 25.0}, Choice{"shallow 80", &BestTuning::shallow, 80.0},
           Choice{"stretched 0", &BestTuning::stretched, 0.0}, Choice{"stretched .5", &BestTuning::stretched, 0.5}}) {
         BestTuning other = chosen;
         if (other.*choice.member == choice.value) continue;
@@ -117,10 +120,8 @@ int main(int count, char** arguments) {
     for (const double absorbed : {0.98, 0.7, 0.3, 0.1, 0.01, 0.001, 0.0001})
         for (const double g : {0.0, 0.5, 0.9})
             for (const double eta : {1.0, 1.3, 1.5})
-                // Above g = .7 other walks serve, unless much is absorbed.
-                if (g < 0.7 || absorbed > 0.3)
-                    media.push_back({fmt::format("scan: 1 - albedo {}, g {}, eta {}", absorbed, g, eta),
-                                     {.absorbed = absorbed, .g = g, .eta = eta}});
+                media.push_back({fmt::format("scan: 1 - albedo {}, g {}, eta {}", absorbed, g, eta),
+                                 {.absorbed = absorbed, .g = g, .eta = eta}});
     for (const auto& [name, walk] : media)
         if (name.find(only) != std::string::npos) searchlight::table(name, walk, seconds);
 }

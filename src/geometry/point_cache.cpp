@@ -15,7 +15,7 @@ namespace searchlight {
 namespace {
 
 // Counted up whenever the same options give other points.
-constexpr std::uint64_t method_version = 1;
+constexpr std::uint64_t method_version = 2;
 
 // Of a point in a file: position, normal, radius and area.
 constexpr std::uintmax_t bytes_per_point = 24;

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "base/parallel.h"
-#include "geometry/random_stream.h"
+#include "base/random.h"
 #include "geometry/vertex_normals.h"
 
 namespace searchlight {
@@ -70,7 +70,7 @@ std::vector<SurfacePlace> randomPlaces(const Mesh& mesh, std::size_t count, std:
     std::vector<SurfacePlace> places(count);
     parallelFor((count + chunk - 1) / chunk, threads, [&](std::size_t c) {
         for (std::size_t i = c * chunk; i < std::min(count, (c + 1) * chunk); ++i) {
-            RandomStream random(seed, i);
+            SplitMix64 random = streamOf(seed, i);
             const auto at = std::upper_bound(ends.begin(), ends.end(), random.uniform() * sum);
             const auto triangle = static_cast<std::uint32_t>(
                 std::min<std::ptrdiff_t>(at - ends.begin(), static_cast<std::ptrdiff_t>(ends.size()) - 1));
@@ -144,7 +144,7 @@ std::vector<SurfacePlace> stratifiedPlaces(const Mesh& mesh, std::size_t count, 
     std::vector<SurfacePlace> places(count);
     parallelFor((count + chunk - 1) / chunk, threads, [&](std::size_t c) {
         for (std::size_t i = c * chunk; i < std::min(count, (c + 1) * chunk); ++i) {
-            RandomStream random(seed, i);
+            SplitMix64 random = streamOf(seed, i);
             const double at = (static_cast<double>(i) + random.uniform()) / static_cast<double>(count) * sum;
             const auto found = std::upper_bound(ends.begin(), ends.end(), at);
             const Piece& piece =

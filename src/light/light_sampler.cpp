@@ -14,6 +14,8 @@ namespace searchlight {
 
 namespace {
 
+constexpr double kNarrow_deg = 40;
+
 class DirectionalSource {
 public:
     DirectionalSource(const DirectionalLight& light, const Object& object) : light_(light), disc_(light) {
@@ -30,6 +32,7 @@ public:
     }
 
     bool singular() const { return disc_.solidAngle() == 0; }
+    bool narrow() const { return !singular() && light_.angle_deg <= kNarrow_deg; }
 
     Rgb radiance(Vec3 position, Vec3 direction) const {
         if (!disc_.holds(direction)) return {};
@@ -58,6 +61,7 @@ public:
     }
 
     bool singular() const { return false; }
+    bool narrow() const { return false; }
 
     Rgb radiance(Vec3, Vec3 direction) const { return environment_.radiance(direction); }
 
@@ -87,6 +91,7 @@ public:
     }
 
     bool singular() const { return true; }
+    bool narrow() const { return false; }
 
     Rgb radiance(Vec3, Vec3) const { return {}; }
 
@@ -129,10 +134,12 @@ LightSampler& LightSampler::operator=(LightSampler&&) noexcept = default;
 
 bool LightSampler::dark() const { return impl_->sources.empty(); }
 
-Rgb LightSampler::radiance(Vec3 position, Vec3 direction) const {
+Rgb LightSampler::radiance(Vec3 position, Vec3 direction, bool wide_only) const {
     Rgb sum;
-    for (const Source& light : impl_->sources)
-        sum = sum + std::visit([&](const auto& source) { return source.radiance(position, direction); }, light);
+    for (std::size_t light = 0; light < count(); ++light)
+        if (!(wide_only && narrow(light)))
+            sum = sum + std::visit([&](const auto& source) { return source.radiance(position, direction); },
+                                   impl_->sources[light]);
     return sum;
 }
 
@@ -140,6 +147,16 @@ std::size_t LightSampler::count() const { return impl_->sources.size(); }
 
 bool LightSampler::singular(std::size_t light) const {
     return std::visit([](const auto& source) { return source.singular(); }, impl_->sources[light]);
+}
+
+bool LightSampler::narrow(std::size_t light) const {
+    return std::visit([](const auto& source) { return source.narrow(); }, impl_->sources[light]);
+}
+
+bool LightSampler::narrow() const {
+    for (std::size_t light = 0; light < count(); ++light)
+        if (narrow(light)) return true;
+    return false;
 }
 
 bool LightSampler::singular() const {

@@ -40,12 +40,16 @@ public:
     /// Whether a light comes from a single direction at each point.
     bool singular(std::size_t light) const;
 
+    /// Whether a light is a disc of at most 40 degrees, which directions that are drawn otherwise meet rarely.
+    bool narrow(std::size_t light) const;
+
     /// What comes to `position` (mm) from a unit direction, of lights that have an extent: the mean of sample() over
-    /// directions, where it is not from a single one.
-    Rgb radiance(Vec3 position, Vec3 direction) const;
+    /// directions, where it is not from a single one. `wide_only`: without narrow() lights.
+    Rgb radiance(Vec3 position, Vec3 direction, bool wide_only = false) const;
 
     /// Whether some light comes from a single direction at each point: no walk ever meets it.
     bool singular() const;
+    bool narrow() const;  ///< whether some light is
 
     /// True when the scene has no light, or none that emits.
     bool dark() const;

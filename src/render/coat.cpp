@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/parallel.h"
-#include "geometry/random_stream.h"
+#include "base/random.h"
 #include "render/brdf_evaluator.h"
 #include "render/coat_lights.h"
 #include "render/ggx.h"
@@ -37,9 +37,7 @@ CoatPoint pointOf(const CoatSamples& samples, std::size_t i) {
     return point;
 }
 
-std::uint64_t seedOf(const CoatOptions& options, std::size_t sample) {
-    return RandomStream(options.seed, sample).next();
-}
+std::uint64_t seedOf(const CoatOptions& options, std::size_t sample) { return streamOf(options.seed, sample).next(); }
 
 Rgb mirrored(const Ggx& ggx, const CoatLights& lights, const CoatPoint& point) {
     const Vec3 wo = point.wo;

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "base/error.h"
-#include "geometry/random_stream.h"
+#include "base/random.h"
 #include "model/plane.h"
 #include "render/direct/block_sum.h"
 #include "render/direct/chosen_light.h"
@@ -139,7 +139,7 @@ public:
     bool step(Observer& observer) override {
         if (exitance_.empty()) return true;
         step_.assign(exitance_.size(), {});
-        const std::uint64_t seed = RandomStream(input_.light.seed, static_cast<std::uint64_t>(done_)).next();
+        const std::uint64_t seed = streamOf(input_.light.seed, static_cast<std::uint64_t>(done_)).next();
         if (by_points_) addPoints(seed, observer);
         if (probes_) addProbes(seed + 1, observer);
         if (single_) addSingle(seed, observer);
@@ -270,7 +270,7 @@ private:
             const ProbeHits found = findHits(*probes_, *input_.visible, first, last, passes_, seed, *input_.rays,
                                              *walk_, input_.threads, observer);
             const Irradiance light = light_->at({found.points.positions, found.points.normals}, directions_per_draw,
-                                                RandomStream(seed, first).next(), observer);
+                                                streamOf(seed, first).next(), observer);
             if (input_.profile)
                 addHits(found, light);
             else

@@ -15,16 +15,12 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/shade.cpp"
 #include <hwy/foreach_target.h>
-#include <hwy/highway.h>
+
+#include "base/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace searchlight {
 namespace HWY_NAMESPACE {
-
-namespace hn = hwy::HWY_NAMESPACE;
-
-using Float = hn::CappedTag<float, 16>;
-using FloatV = hn::Vec<Float>;
 
 struct Vectors {
     FloatV x, y, z;

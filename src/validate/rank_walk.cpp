@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "base/error.h"
-#include "transport/half_space/exact_half_space.h"
+#include "transport/exact/exact_half_space.h"
 #include "transport/walk/radial_edges.h"
 
 namespace searchlight {

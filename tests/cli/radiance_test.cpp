@@ -42,11 +42,15 @@ TEST_F(Program, AResumedRadianceReferenceAddsToWhatThereIs) {
                     5 * 1.42 * straight["mean_radiance_stderr"][c].get<double>());
 }
 
-TEST_F(Program, ARadianceReferenceSaysWhatNoWalkMeets) {
-    const Output sun = run(sphere + "--light dir:1,1,1 --walks 1e3");
-    EXPECT_EQ(sun.exit_code, 3);
-    EXPECT_THAT(sun.err, HasSubstr("light from a single direction or point"));
-    EXPECT_THAT(sun.err, HasSubstr("--sun-angle"));
+TEST_F(Program, ARadianceReferenceOfLightThatNoWalkMeetsAsksForIt) {
+    const Output sun = run(sphere + "--light dir:1,1,1 --walks 1e4");
+    ASSERT_EQ(sun.exit_code, 0) << sun.err;
+    const json document = json::parse(sun.out);
+    EXPECT_EQ(document["estimator"], "radiance, beams at collisions");
+    for (std::size_t c = 0; c < 3; ++c) {
+        EXPECT_GT(document["mean_radiance"][c].get<double>(), 5 * document["mean_radiance_stderr"][c].get<double>());
+        EXPECT_EQ(document["mirrored"][c], 0);
+    }
     const Output error = run(sphere + "--light dir:1,1,1 --sun-angle 30 --walks 1e3 --until-error 1%");
     EXPECT_EQ(error.exit_code, 2);
 }

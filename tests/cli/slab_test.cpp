@@ -45,6 +45,25 @@ TEST_F(Program, ReferenceSlabHasItsParts) {
     EXPECT_FALSE(slab.contains("maps"));
 }
 
+TEST_F(Program, ASlabWithoutAnExactSolutionSaysWhy) {
+    writeFile(folder() / "layers.json", layers);
+    const auto refusal = [&](const std::string& options) {
+        const Output output = run("reference slab --layers layers.json --exact " + options);
+        EXPECT_EQ(output.exit_code, 2) << options;
+        return output.err;
+    };
+    EXPECT_THAT(refusal("--angle-deg 30"), HasSubstr("the beam is oblique, 30 deg"));
+    EXPECT_THAT(refusal("--angle-deg 30"), HasSubstr("--exact takes a normal pencil beam"));
+    EXPECT_THAT(refusal("--walks 10"), HasSubstr("--exact and --walks exclude each other"));
+    EXPECT_THAT(refusal("--until-error 1%"), HasSubstr("--exact and --until-error exclude each other"));
+    EXPECT_THAT(refusal("--maps"), HasSubstr("--exact has no --maps"));
+    EXPECT_THAT(refusal("--backend gl"), HasSubstr("--backend gl and --exact exclude each other"));
+    writeFile(folder() / "glass.json", R"({"format": "searchlight-layers/1", "layers": [
+        {"n": 1.5, "sigma_a": 0, "sigma_s": 0, "thickness_mm": 1},
+        {"n": 1.4, "sigma_a": 0.1, "sigma_s": 1, "thickness_mm": 1}]})");
+    EXPECT_THAT(run("reference slab --layers glass.json --exact").err, HasSubstr("layer 1 is clear"));
+}
+
 TEST_F(Program, ReferenceSlabTakesGridAndPhotonsFromAnMciFileUnlessTold) {
     writeFile(folder() / "sample.mci", mci);
     json slab = json::parse(run("reference slab --mci sample.mci --json").out);

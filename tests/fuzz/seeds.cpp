@@ -1,10 +1,12 @@
-// Small valid files of every format that shape_fuzz, image_fuzz and brdf_fuzz read, as corpora to start
+// Small valid files of every format that shape_fuzz, image_fuzz, atlas_fuzz and brdf_fuzz read, as corpora to start
 // from: fuzz_seeds FOLDER writes FOLDER/shape.ply/*, FOLDER/image.exr/*, ...
 #include <cstdio>
 #include <filesystem>
 
 #include "base/error.h"
 #include "base/files.h"
+#include "geometry/atlas/atlas_file.h"
+#include "geometry/object.h"
 #include "io/binary_text.h"
 #include "io/image_file.h"
 #include "io/shape_file.h"
@@ -110,6 +112,13 @@ void shapes(const fs::path& folder) {
     }
 }
 
+// Of a cuboid, whose twelve triangles atlas_fuzz reads.
+void atlases(const fs::path& folder) {
+    Observer observer;
+    seed(folder / "atlas", "small",
+         atlasBytes(makeAtlas(builtInObject("slab", -2), {.resolution = 64, .uvs = AtlasUvs::own}, observer)));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -117,6 +126,7 @@ int main(int argc, char** argv) {
     try {
         images(argv[1]);
         shapes(argv[1]);
+        atlases(argv[1]);
         seed(fs::path(argv[1]) / "brdf", "small",
              "analytic\n::begin parameters\nfloat gloss 0 1 .5\nbool on 1\ncolor tint 1 .5 0\n::end parameters\n"
              "::begin shader\nvec3 BRDF(vec3 L, vec3 V, vec3 N, vec3 X, vec3 Y) { return tint * gloss; }\n::end "

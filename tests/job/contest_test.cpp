@@ -226,5 +226,21 @@ TEST(Contest, LeavesAPageTablesAndFiguresAndResumes) {
     fs::remove_all(folder);
 }
 
+TEST(Contest, SaysWhenNoPictureWouldBeDrawn) {
+    const fs::path folder = fs::path(testing::TempDir()) / "contest_hasty";
+    Job job = quickJob();
+    job.output = folder.string();
+    job.options["cell_seconds"] = 1e-6;
+    Quiet observer;
+    try {
+        run(job, observer);
+        ADD_FAILURE();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind, ErrorKind::usage);
+        EXPECT_EQ(error.message, "no picture would be drawn within --cell-seconds 1e-06");
+    }
+    fs::remove_all(folder);
+}
+
 }  // namespace
 }  // namespace searchlight

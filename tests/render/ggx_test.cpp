@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "geometry/random_stream.h"
+#include "base/random.h"
 
 namespace searchlight {
 namespace {
@@ -44,7 +44,7 @@ double integral(const Ggx& ggx, Vec3 wo, double (*f)(const Ggx&, Vec3 wi, Vec3 w
 double reflected(const Ggx& ggx, Vec3 wi, Vec3 wo) { return ggxValue(ggx, wi, wo) * wi.z; }
 
 TEST(Ggx, IsReciprocal) {
-    RandomStream random(1, 1);
+    SplitMix64 random = streamOf(1, 1);
     for (int i = 0; i < 200; ++i) {
         const Ggx ggx{std::max(1e-3, random.uniform()), 1.1 + random.uniform(), false};
         const Vec3 a = direction(random.uniform(), 2 * pi * random.uniform());
@@ -96,7 +96,7 @@ TEST(Ggx, SamplesFollowTheirDensity) {
                     expected[static_cast<std::size_t>(i / fine * cells + k / fine)] += share;
                     expected.back() -= share;
                 }
-            RandomStream random(7, 3);
+            SplitMix64 random = streamOf(7, 3);
             for (int i = 0; i < samples; ++i) {
                 const double u = random.uniform(), v = random.uniform();
                 const Vec3 wi = ggxSample(ggx, wo, u, v);

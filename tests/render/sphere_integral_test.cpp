@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/random.h"
 #include "geometry/object.h"
-#include "geometry/random_stream.h"
 #include "model/physics.h"
 #include "render/sphere/directions.h"
 #include "render/sphere/sphere_reference.h"
@@ -110,7 +110,7 @@ SphereExitance plainSum(const Ball& ball, const LightSampler& lights, Evaluator&
     sum.standard_error = sum.mean;
     const double normalizer = 1 - 2 * Physics<double>::fresnelMoment(1, 1 / medium.eta);
     for (const std::uint32_t cell : cells) {
-        RandomStream random(seed, cell);
+        SplitMix64 random = streamOf(seed, cell);
         std::vector<Query> queries;
         std::vector<Rgb> weights, values;
         for (int i = 0; i < samples; ++i) {

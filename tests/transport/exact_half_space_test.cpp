@@ -1,4 +1,4 @@
-#include "transport/half_space/exact_half_space.h"
+#include "transport/exact/exact_half_space.h"
 
 #include <gtest/gtest.h>
 

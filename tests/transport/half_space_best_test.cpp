@@ -244,6 +244,57 @@ TEST(SingleScattering, TotalOfTheMatchedHalfSpaceIsClosed) {
     EXPECT_GT(single.flux[0], 0);
 }
 
+// m: cosine of the beam; a/2 int mu / (mu + m) dmu, and the mean shift of docs/oblique.md.
+TEST(SingleScattering, TotalAndShiftOfTheMatchedHalfSpaceAreClosedAtAnyAngle) {
+    const std::vector<double> edges = {0.5, 1};
+    for (const double angle_deg : {1.0, 30.0, 60.0, 85.0}) {
+        const double m = std::cos(angle_deg * std::numbers::pi / 180), s = std::sqrt(1 - m * m);
+        const double log = std::log((1 + m) / m);
+        const SingleScattering single = singleScattering({.absorbed = 0.2, .sin_beam = s, .cos_beam = m}, edges);
+        EXPECT_NEAR(single.total, 0.4 * (1 - m * log), 1e-7 * single.total) << angle_deg;
+        EXPECT_NEAR(single.x / single.total, s * (1 - 2 * m * log + m / (1 + m)) / (1 - m * log), 1e-6) << angle_deg;
+    }
+}
+
+// Straight in the direction of the way out, where singleScattering() integrates over places. 800 x 400 midpoints leave
+// some 1e-5.
+TEST(SingleScattering, AgreesWithMidpointQuadratureOfDirectionsAtObliqueIncidence) {
+    const std::vector<double> edges = {0, 0.1, 0.5, 1, 2, 4};
+    for (const double g : {0.0, 0.6, 0.9, -0.5})
+        for (const double eta : {1.0, 1.4, 0.8}) {
+            const double s = 0.7, m = std::sqrt(1 - s * s), critical = eta > 1 ? std::sqrt(1 - 1 / (eta * eta)) : 0;
+            std::vector<double> expected(edges.size() - 1);
+            double x = 0, r2 = 0;
+            constexpr int steps = 800, azimuths = 400;
+            for (int i = 0; i < steps; ++i)
+                for (int k = 0; k < azimuths; ++k) {
+                    const double q = (i + 0.5) / steps, mu = critical + (1 - critical) * q * q;
+                    const double sine = std::sqrt(1 - mu * mu),
+                                 cosine = std::cos((k + 0.5) * std::numbers::pi / azimuths);
+                    const double phase =
+                        0.5 * (1 - g * g) / std::pow(1 + g * g - 2 * g * (s * sine * cosine - m * mu), 1.5);
+                    const double out = std::sqrt(std::max(0.0, 1 - eta * eta * (1 - mu * mu)));
+                    const double rs = (eta * mu - out) / (eta * mu + out), rp = (mu - eta * out) / (mu + eta * out);
+                    const double rate = 1 + m / mu, shift = s + m * sine / mu * cosine;
+                    const double place2 = 2 * s * shift - 1 + m * m / (mu * mu);
+                    const double weight = 0.5 * phase * (1 - 0.5 * (rs * rs + rp * rp)) / rate * 2 * (1 - critical) *
+                                          q / (steps * azimuths);
+                    x += weight * shift / rate;
+                    r2 += weight * 2 * place2 / (rate * rate);
+                    for (std::size_t bin = 0; bin + 1 < edges.size(); ++bin)
+                        expected[bin] += weight * (std::exp(-edges[bin] * rate / std::sqrt(place2)) -
+                                                   std::exp(-edges[bin + 1] * rate / std::sqrt(place2)));
+                }
+            const SingleScattering single =
+                singleScattering({.absorbed = 0.5, .g = g, .eta = eta, .sin_beam = s, .cos_beam = m}, edges);
+            for (std::size_t bin = 0; bin < expected.size(); ++bin)
+                EXPECT_NEAR(single.flux[bin + 1], expected[bin], 1e-4 * expected[bin])
+                    << "g " << g << ", eta " << eta << ", annulus " << bin;
+            EXPECT_NEAR(single.x, x, 1e-4 * std::abs(x) + 1e-6);
+            EXPECT_NEAR(single.r2, r2, 1e-4 * r2);
+        }
+}
+
 TEST(ImportanceTable, IsPositiveBoundedAndFallsWithDepth) {
     const std::vector<double> edges = {0, 5};
     constexpr auto n = static_cast<std::size_t>(ImportanceTable::kCells);

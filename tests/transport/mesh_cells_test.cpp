@@ -5,9 +5,9 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "base/random.h"
 #include "mesh_shapes.h"
 #include "transport/mesh/cell_picture.h"
-#include "transport/walk/random.h"
 
 namespace searchlight {
 namespace {

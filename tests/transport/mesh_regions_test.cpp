@@ -1,7 +1,8 @@
 #include "transport/mesh/safe_regions.h"
 
+#include "base/random.h"
 #include "mesh_shapes.h"
-#include "transport/walk/random.h"
+#include "transport/mesh/distance_bounds.h"
 
 namespace searchlight {
 namespace {

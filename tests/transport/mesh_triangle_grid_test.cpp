@@ -2,9 +2,9 @@
 
 #include <hwy/targets.h>
 
+#include "base/random.h"
 #include "instruction_sets.h"
 #include "mesh_shapes.h"
-#include "transport/walk/random.h"
 
 namespace searchlight {
 namespace {
@@ -27,6 +27,14 @@ std::vector<Ray> flightsNear(const Mesh& mesh, double length, int count) {
     return flights;
 }
 
+bool beginsInside(const TriangleGrid& grid, const Ray& flight) {
+    const auto within = [&](float at, float low, std::int32_t n) {
+        return at > low && at < low + static_cast<float>(n) * grid.cell_mm;
+    };
+    return within(flight.origin.x, grid.origin.x, grid.nx) && within(flight.origin.y, grid.origin.y, grid.ny) &&
+           within(flight.origin.z, grid.origin.z, grid.nz);
+}
+
 // Embree and the grid round differently: where only one of them sees a hit, or they see different ones, a flight has to
 // begin, end or cross an edge within a rounding.
 void expectEmbreesHits(const Mesh& mesh, double cell, double length) {
@@ -34,9 +42,10 @@ void expectEmbreesHits(const Mesh& mesh, double cell, double length) {
     const RayScene rays(mesh);
     std::vector<Ray> flights = flightsNear(mesh, length, 40'000);
     for (Ray& f : flights)
-        if (!grid.holds(f)) f = {mesh.positions[0], {0, 0, 0}, 0, 1};
+        if (!beginsInside(grid, f)) f = {mesh.positions[0], {0, 0, 0}, 0, 1};
     std::vector<RayHit> hits(flights.size()), truth(flights.size());
-    grid.intersect(flights, hits);
+    std::vector<Vec3> positions(flights.size());
+    grid.intersect(flights, hits, positions);
     rays.intersect(flights, truth, false);
     int met = 0, slipped = 0, slipped_truth = 0, elsewhere = 0;
     for (std::size_t i = 0; i < flights.size(); ++i) {
@@ -49,6 +58,8 @@ void expectEmbreesHits(const Mesh& mesh, double cell, double length) {
             continue;
         }
         if (hits[i].triangle != truth[i].triangle) continue;
+        const Vec3 at = toDouble(flights[i].origin) + static_cast<double>(hits[i].t) * toDouble(flights[i].direction);
+        EXPECT_LT(searchlight::length(positions[i] - at), 1e-4 * length) << i;
         EXPECT_NEAR(hits[i].u, truth[i].u, 2e-3) << i;
         EXPECT_NEAR(hits[i].v, truth[i].v, 2e-3) << i;
         EXPECT_EQ(hits[i].normal.x, truth[i].normal.x) << i;
@@ -83,7 +94,8 @@ TEST(TriangleGrid, IsWatertightAtEdges) {
         flights.push_back({toFloat(from), toFloat(1.05 * (a + part * (b - a) - from)), 0, 1});
     }
     std::vector<RayHit> hits(flights.size());
-    grid.intersect(flights, hits);
+    std::vector<Vec3> positions(flights.size());
+    grid.intersect(flights, hits, positions);
     std::size_t slipped = 0;
     for (const RayHit& hit : hits) slipped += !std::isfinite(hit.t);
     EXPECT_EQ(slipped, 0u);
@@ -96,10 +108,62 @@ TEST(TriangleGrid, CountsInTheFlightsOwnLength) {
     const std::vector<Ray> flights{{{0.1f, 0.2f, 0.5f}, {0, 0, 0.25f}, 0, 2.5f},
                                    {{0.1f, 0.2f, 0.5f}, {0, 0, 0.25f}, 0, 1.9f}};
     std::vector<RayHit> hits(2);
-    grid.intersect(flights, hits);
+    std::vector<Vec3> positions(2);
+    grid.intersect(flights, hits, positions);
     EXPECT_FLOAT_EQ(hits[0].t, 2);
     EXPECT_EQ(hits[0].normal.z, 1);
     EXPECT_TRUE(std::isinf(hits[1].t));
+}
+
+// A flight that is known to be clear up to shortly before its hit, and to end shortly after, has that hit.
+TEST(TriangleGrid, FindsTheSameHitInThePartOfAFlightAroundIt) {
+    const Mesh mesh = sphereMesh(2, 4);
+    const TriangleGrid grid = buildTriangleGrid(mesh, 0.15);
+    std::vector<Ray> flights = flightsNear(mesh, 1.0, 20'000);
+    std::erase_if(flights, [&](const Ray& f) { return !beginsInside(grid, f); });
+    std::vector<RayHit> whole(flights.size()), part(flights.size());
+    std::vector<Vec3> positions(flights.size());
+    grid.intersect(flights, whole, positions);
+    int met = 0;
+    for (std::size_t i = 0; i < flights.size(); ++i)
+        if (std::isfinite(whole[i].t))
+            flights[i].t_min = 0.999f * whole[i].t, flights[i].t_max = std::min(1.001f * whole[i].t, 1.0f), ++met;
+    grid.intersect(flights, part, positions);
+    EXPECT_GT(met, 1'000);
+    int other = 0;
+    for (std::size_t i = 0; i < flights.size(); ++i)
+        other += std::isfinite(whole[i].t) && !(std::abs(part[i].t - whole[i].t) < 1e-4f * whole[i].t);
+    EXPECT_LE(other, 2) << "what passes a vertex may meet either side of it";
+}
+
+// A walk that has slipped out by rounding may begin its next flight there.
+TEST(TriangleGrid, FollowsFlightsThatBeginBeyondIt) {
+    const Mesh mesh = boxMesh({3, 1, 0.5});
+    const TriangleGrid grid = buildTriangleGrid(mesh, 0.1);
+    const RayScene rays(mesh);
+    SplitMix64 random(3);
+    const auto uniform = [&] { return 2 * random.uniform() - 1; };
+    std::vector<Ray> flights;
+    while (flights.size() < 20'000) {
+        // A cell beyond, and many.
+        const double away = flights.size() % 2 == 0 ? 0.5 : 20;
+        const Vec3 from{(3 + away) * uniform(), (1 + away) * uniform(), (0.5 + away) * uniform()};
+        const Vec3 to = flights.size() % 4 < 2 ? Vec3{3 * uniform(), uniform(), 0.5 * uniform()}
+                                               : from + 2 * away * Vec3{uniform(), uniform(), uniform()};
+        const Ray flight{toFloat(from), toFloat(to - from), 0, 1};
+        if (!beginsInside(grid, flight)) flights.push_back(flight);
+    }
+    std::vector<RayHit> hits(flights.size()), truth(flights.size());
+    std::vector<Vec3> positions(flights.size());
+    grid.intersect(flights, hits, positions);
+    rays.intersect(flights, truth, false);
+    int met = 0, other = 0;
+    for (std::size_t i = 0; i < flights.size(); ++i) {
+        met += std::isfinite(truth[i].t);
+        other += std::isfinite(truth[i].t) != std::isfinite(hits[i].t) || std::abs(hits[i].t - truth[i].t) > 1e-4f;
+    }
+    EXPECT_GT(met, 9'000);
+    EXPECT_LE(other, 2) << "what grazes an edge may slip past it";
 }
 
 TEST(TriangleGrid, AgreesBitForBitOnTargetsWithFma) {
@@ -107,11 +171,12 @@ TEST(TriangleGrid, AgreesBitForBitOnTargetsWithFma) {
     const Mesh mesh = sphereMesh(2, 4);
     const TriangleGrid grid = buildTriangleGrid(mesh, 0.15);
     std::vector<Ray> flights = flightsNear(mesh, 1.0, 20'000);
-    std::erase_if(flights, [&](const Ray& f) { return !grid.holds(f); });
+    std::erase_if(flights, [&](const Ray& f) { return !beginsInside(grid, f); });
     std::vector<RayHit> hits[2]{std::vector<RayHit>(flights.size()), std::vector<RayHit>(flights.size())};
+    std::vector<Vec3> positions(flights.size());
     for (const std::int64_t target : {HWY_AVX3, HWY_AVX2}) {
         hwy::SetSupportedTargetsForTest(target);
-        grid.intersect(flights, hits[target == HWY_AVX2]);
+        grid.intersect(flights, hits[target == HWY_AVX2], positions);
     }
     hwy::SetSupportedTargetsForTest(0);
     for (std::size_t i = 0; i < flights.size(); ++i) {

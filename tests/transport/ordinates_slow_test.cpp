@@ -5,8 +5,8 @@
 #include <filesystem>
 
 #include "exact.h"
-#include "transport/half_space/exact_half_space.h"
-#include "transport/half_space/ordinate_half_space.h"
+#include "transport/exact/exact_half_space.h"
+#include "transport/exact/ordinate_half_space.h"
 #include "transport/half_space/single_scattering.h"
 
 namespace searchlight {

@@ -1,12 +1,12 @@
-#include "transport/half_space/ordinates.h"
+#include "transport/exact/ordinates.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "base/error.h"
 #include "exact.h"
-#include "transport/half_space/exact_half_space.h"
-#include "transport/half_space/ordinate_half_space.h"
+#include "transport/exact/exact_half_space.h"
+#include "transport/exact/ordinate_half_space.h"
 #include "transport/half_space/single_scattering.h"
 
 namespace searchlight {

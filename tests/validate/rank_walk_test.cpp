@@ -5,7 +5,7 @@
 #include "base/error.h"
 #include "formula_model.h"
 #include "model/plane.h"
-#include "transport/half_space/exact_half_space.h"
+#include "transport/exact/exact_half_space.h"
 #include "validate/model_shift.h"
 
 namespace searchlight {

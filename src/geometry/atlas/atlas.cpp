@@ -128,7 +128,7 @@ Atlas makeAtlas(const Mesh& mesh, const AtlasOptions& options, Observer& observe
         if (fault.empty()) {
             atlas.charts = chartsOfUvs(mesh, surface);
             for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-                for (std::size_t k = 0; k < 3; ++k) {
+                for (std::size_t k = 0; k < 3 && atlas.charts[t] != no_triangle; ++k) {
                     const Vec2f uv = mesh.uvs[mesh.triangles[t][k]];
                     const auto texels = [&](float x) { return options.resolution * std::clamp<double>(x, 0, 1); };
                     atlas.triangles[t][k] = {texels(uv.x), texels(uv.y)};

@@ -141,7 +141,8 @@ std::vector<SlabCase> slabCases() {
              0.1}};
 }
 
-// Merits of R, T and A, and of R(r) and T(r) at 5, 10, 20 and 50 annuli.
+// Merits of R, T and A, of R(r) and T(r) at 5, 10, 20 and 50 annuli, of angles at 45 degrees, and of A(z) at a tenth
+// of the depth that is tallied.
 Json slabRow(const SlabCase& one, SlabEstimator estimator, double seconds, std::uint64_t seed) {
     SlabOptions options;
     options.estimator = estimator;
@@ -161,7 +162,7 @@ Json slabRow(const SlabCase& one, SlabEstimator estimator, double seconds, std::
         timed(static_cast<std::uint64_t>(std::max(1.0, seconds / once) * static_cast<double>(first_walks)));
     Json row{{"case", one.name},
              {"estimator", estimator == SlabEstimator::best ? "best" : "analogue"},
-             {"walked_by", result.estimator == SlabEstimator::best ? "best" : "analogue"},
+             {"walked_by", result.foresees ? "best" : "analogue"},
              {"walks_per_s", static_cast<double>(result.walks) / spent},
              {"collisions_per_s", static_cast<double>(result.collisions) / spent}};
     row["merit_R"] = meritOf(result.R, spent);
@@ -171,6 +172,12 @@ Json slabRow(const SlabCase& one, SlabEstimator estimator, double seconds, std::
         row["merit_R_r"].push_back(meritOf({result.R_r.mean[bin], result.R_r.standard_error[bin], 0}, spent));
         row["merit_T_r"].push_back(meritOf({result.T_r.mean[bin], result.T_r.standard_error[bin], 0}, spent));
     }
+    const auto middle = [&, spent = spent](const SlabSeries& series, std::size_t i) {
+        return meritOf({series.mean[i], series.standard_error[i], 0}, spent);
+    };
+    row["merit_R_a"] = middle(result.R_a, result.R_a.mean.size() / 2);
+    row["merit_T_a"] = middle(result.T_a, result.T_a.mean.size() / 2);
+    row["merit_A_z"] = middle(result.A_z, result.A_z.mean.size() / 10);
     row["cpu_seconds"] = spent;
     return row;
 }
@@ -230,8 +237,9 @@ JobResult runBenchTransport(const Job& job, Engine& engine, Observer& observer) 
                 result.text += fmt::format(" {:>9}\n", meritText(row["merit_total"]));
                 document["rows"].push_back(std::move(row));
             }
-    result.text += fmt::format("{:20} {:10} {:>9} {:>12} {:>9} {:>9} {:>9}  R(r) and T(r) of annuli 5, 10, 20, 50\n",
-                               "slab", "", "walks/s", "collisions/s", "merit R", "T", "A");
+    result.text += fmt::format(
+        "{:20} {:10} {:>9} {:>12} {:>9} {:>9} {:>9}  R(r) and T(r) of annuli 5, 10, 20, 50; R, T at 45 deg; A(z)\n",
+        "slab", "", "walks/s", "collisions/s", "merit R", "T", "A");
     for (const SlabCase& one : slabs)
         for (const SlabEstimator estimator : {SlabEstimator::analogue, SlabEstimator::best}) {
             if (observer.cancelled()) throw interruptedError();
@@ -243,6 +251,8 @@ JobResult runBenchTransport(const Job& job, Engine& engine, Observer& observer) 
                                        meritText(row["merit_T"]), meritText(row["merit_A"]));
             for (const char* series : {"merit_R_r", "merit_T_r"})
                 for (const Json& merit : row[series]) result.text += fmt::format(" {:>8}", meritText(merit));
+            for (const char* one_number : {"merit_R_a", "merit_T_a", "merit_A_z"})
+                result.text += fmt::format(" {:>8}", meritText(row[one_number]));
             result.text += "\n";
             document["slabs"].push_back(std::move(row));
         }

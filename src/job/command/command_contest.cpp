@@ -129,6 +129,10 @@ JobResult runContest(const Job& job, Engine& engine, Observer& observer) {
     // The references take about as long as direct's dearest picture, times what its noise asks for.
     const double reference_seconds = 8 * usual_seconds;
     const Drawn drawn = drawCells(plan, options, folder, 2 * reference_seconds, engine, progress);
+    if (drawn.rendered + drawn.found == 0)
+        throw usageError(fmt::format("no picture would be drawn within --cell-seconds {}",
+                                     prettyNumber(options.number("cell_seconds"))),
+                         "allow more seconds, or smaller budgets");
     ReferencePicture direct, walked;
     try {
         progress.expect(2 * reference_seconds);

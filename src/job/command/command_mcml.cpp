@@ -16,6 +16,7 @@ SlabOptions walkOf(const McmlRun& run, const Job& job, const Options& options) {
     SlabOptions walk = slabOptions(run);
     if (options.given("walks")) walk.walks = static_cast<std::uint64_t>(options.number("walks"));
     walk.seed = job.seed;
+    walk.estimator = SlabEstimator::best;  // its controls; all the rest is that of the analogue walk
     walk.threads = static_cast<int>(options.number("threads"));
     return walk;
 }

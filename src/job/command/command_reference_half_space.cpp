@@ -12,8 +12,8 @@
 #include "job/plot/curves.h"
 #include "job/reference/saved_walks.h"
 #include "job/shared_options.h"
-#include "transport/half_space/exact_half_space.h"
-#include "transport/half_space/ordinate_half_space.h"
+#include "transport/exact/exact_half_space.h"
+#include "transport/exact/ordinate_half_space.h"
 
 namespace searchlight {
 

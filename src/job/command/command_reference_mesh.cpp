@@ -80,8 +80,7 @@ std::vector<Param> sharedOptions() {
             {.name = "radiance",
              .type = ParamType::toggle,
              .value = false,
-             .doc = "the radiance that the camera sees, by walks from there: of any light; through a "
-                    "smooth sphere of environments and discs (--sun-angle) alone"},
+             .doc = "the radiance that the camera sees, by walks from there: of any light"},
             option::threads(),
             option::untilError("the reflectance of a channel"),
             option::resume()};

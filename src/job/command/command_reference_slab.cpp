@@ -1,4 +1,4 @@
-// reference slab: a beam on plane layers by Monte Carlo.
+// reference slab: a beam on plane layers by Monte Carlo, or without noise.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -11,6 +11,7 @@
 #include "job/reference/saved_walks.h"
 #include "job/reference/slab_json.h"
 #include "job/shared_options.h"
+#include "transport/exact/ordinate_slab.h"
 #include "transport/mcml/mcml_run.h"
 #include "transport/walk/radial_edges.h"
 
@@ -87,6 +88,36 @@ Json problemJson(const SlabProblem& problem, const SlabOptions& options) {
     return json;
 }
 
+// Says why where there is no exact solution.
+void refuseExact(const Options& options, const SlabSubject& subject) {
+    for (const char* name : {"walks", "estimator", "angles", "depths", "depth", "resume", "until_error"})
+        if (options.given(name))
+            throw usageError(fmt::format("--exact and --{} exclude each other",
+                                         name == std::string_view("until_error") ? "until-error" : name),
+                             "give one of the two");
+    if (options.toggle("maps") || options.number("grid") > 0)
+        throw usageError("--exact has no --maps and no --grid", "it solves for R(r), T(r) and totals");
+    if (options.text("backend") == "gl")
+        throw usageError("--backend gl and --exact exclude each other", "OpenGL walks");
+    if (const std::string reason = whyNotOrdinateSlab(subject.problem); !reason.empty())
+        throw usageError(fmt::format("{} has no exact solution: {}", subject.name, reason), ordinateSlabsCovered());
+}
+
+JobResult solveReferenceSlab(const Job& job, const SlabSubject& subject, Observer& observer) {
+    const SlabResult solved = solveSlab(subject.problem, subject.options, observer);
+    Json document = documentJson("searchlight-slab/1", job);
+    document["per"] = "incident";
+    const Json numbers = exactSlabJson(subject.problem, subject.options, solved);
+    for (const auto& [key, value] : numbers.items()) document[key] = value;
+    document["estimator"] = "exact";
+    JobResult result;
+    result.json = document.dump(1);
+    result.text = fmt::format("{}, exact, 0 deg, per unit incident flux\n{}", subject.name,
+                              exactSlabText(subject.problem, solved));
+    if (!job.output.empty()) writeFile(job.output, result.json + "\n");
+    return result;
+}
+
 JobResult runReferenceSlab(const Job& job, Engine& engine, Observer& observer) {
     const Options options(job);
     SlabSubject subject = slabOf(options);
@@ -111,6 +142,10 @@ JobResult runReferenceSlab(const Job& job, Engine& engine, Observer& observer) {
     option::requireGridExtent(options);
     walk.seed = job.seed;
     walk.threads = static_cast<int>(options.number("threads"));
+    if (options.toggle("exact")) {
+        refuseExact(options, subject);
+        return solveReferenceSlab(job, subject, observer);
+    }
     if (options.text("backend") == "gl") {
         if (options.given("threads"))
             throw usageError("--backend gl has no --threads", "the device has its own; --threads is for --backend cpu");
@@ -118,9 +153,7 @@ JobResult runReferenceSlab(const Job& job, Engine& engine, Observer& observer) {
             throw usageError("--backend gl has no --estimator best", "OpenGL walks by the analogue estimator");
         walk.gl = &engine.context();
     }
-    // What only the analogue walk has is walked by it.
-    if (options.text("estimator") == "best" && !walk.gl && !walk.maps && walk.grid == 0)
-        walk.estimator = SlabEstimator::best;
+    if (options.text("estimator") == "best" && !walk.gl) walk.estimator = SlabEstimator::best;
     SavedWalks saved(options, job, problemJson(subject.problem, walk), 1);
     walk.control = saved.control(0);
     const SlabResult walked = walkSlab(subject.problem, walk, observer);
@@ -132,6 +165,7 @@ JobResult runReferenceSlab(const Job& job, Engine& engine, Observer& observer) {
     const Json numbers = slabJson(subject.problem, walk, walked);
     for (const auto& [key, value] : numbers.items()) document[key] = value;
     document["estimator"] = walked.estimator == SlabEstimator::best ? "best" : "analogue";
+    document["foresees"] = walked.foresees;
     document["backend"] = options.text("backend");
     JobResult result;
     result.json = document.dump(1);
@@ -147,69 +181,75 @@ JobResult runReferenceSlab(const Job& job, Engine& engine, Observer& observer) {
 }  // namespace
 
 Command referenceSlabCommand() {
-    return {.name = "reference slab",
-            .summary = "Walk a pencil beam on plane layers by unbiased Monte Carlo",
-            .example = "searchlight reference slab --layers layers.json --walks 1e6 --json",
-            .options = {{.name = "layers",
-                         .type = ParamType::path,
-                         .value = std::string(),
-                         .doc = "the slab: a searchlight-layers/1 file"},
-                        {.name = "mci",
-                         .type = ParamType::path,
-                         .value = std::string(),
-                         .doc = "or an input file of MCML, with its grid and number of photons"},
-                        {.name = "run",
-                         .type = ParamType::integer,
-                         .min = 1,
-                         .max = 32767,
-                         .value = 1.0,
-                         .doc = "which run of that file"},
-                        option::walks(1e6, "walks", "random walks"),
-                        option::angle(),
-                        option::beam(),
-                        option::beamRadius(),
-                        option::edges(),
-                        option::radiiMax(),
-                        option::bins(100),
-                        {.name = "angles",
-                         .type = ParamType::integer,
-                         .min = 1,
-                         .max = 1e4,
-                         .value = 30.0,
-                         .doc = "equal parts of 90 deg, for what leaves"},
-                        {.name = "depths",
-                         .type = ParamType::integer,
-                         .min = 1,
-                         .max = 1e6,
-                         .value = 100.0,
-                         .doc = "equal parts of the depth, for what is absorbed"},
-                        {.name = "depth",
-                         .unit = "mm",
-                         .min = 0,
-                         .max = option::unlimited,
-                         .value = 0.0,
-                         .doc = "largest depth; 0: chosen from the slab"},
-                        {.name = "maps",
-                         .type = ParamType::toggle,
-                         .value = false,
-                         .doc = "also A(r, z), fluence(r, z), R(r, alpha), T(r, alpha)"},
-                        option::grid("R(x, y) and T(x, y)"),
-                        option::gridExtent(),
-                        {.name = "estimator",
-                         .type = ParamType::choice,
-                         .value = std::string("best"),
-                         .choices = {"analogue", "best"},
-                         .doc = "best: R(r) and T(r) with less noise, half of the time to analogue walks, which alone "
-                                "count depths and angles; analogue where a pilot finds it better, and for --grid, "
-                                "--maps, clear layers, tabulated phase functions"},
-                        option::walkBackend(),
-                        option::threads(),
-                        option::untilError("R, T and A"),
-                        option::resume()},
-            .uses_seed = true,
-            .shares_walks = true,
-            .output = "the JSON document",
-            .run = runReferenceSlab};
+    return {
+        .name = "reference slab",
+        .summary = "Walk a pencil beam on plane layers by unbiased Monte Carlo",
+        .example = "searchlight reference slab --layers layers.json --walks 1e6 --json",
+        .options = {{.name = "layers",
+                     .type = ParamType::path,
+                     .value = std::string(),
+                     .doc = "the slab: a searchlight-layers/1 file"},
+                    {.name = "mci",
+                     .type = ParamType::path,
+                     .value = std::string(),
+                     .doc = "or an input file of MCML, with its grid and number of photons"},
+                    {.name = "run",
+                     .type = ParamType::integer,
+                     .min = 1,
+                     .max = 32767,
+                     .value = 1.0,
+                     .doc = "which run of that file"},
+                    option::walks(1e6, "walks", "random walks"),
+                    option::angle(),
+                    option::beam(),
+                    option::beamRadius(),
+                    option::edges(),
+                    option::radiiMax(),
+                    option::bins(100),
+                    {.name = "angles",
+                     .type = ParamType::integer,
+                     .min = 1,
+                     .max = 1e4,
+                     .value = 30.0,
+                     .doc = "equal parts of 90 deg, for what leaves"},
+                    {.name = "depths",
+                     .type = ParamType::integer,
+                     .min = 1,
+                     .max = 1e6,
+                     .value = 100.0,
+                     .doc = "equal parts of the depth, for what is absorbed"},
+                    {.name = "depth",
+                     .unit = "mm",
+                     .min = 0,
+                     .max = option::unlimited,
+                     .value = 0.0,
+                     .doc = "largest depth; 0: chosen from the slab"},
+                    {.name = "maps",
+                     .type = ParamType::toggle,
+                     .value = false,
+                     .doc = "also A(r, z), fluence(r, z), R(r, alpha), T(r, alpha)"},
+                    option::grid("R(x, y) and T(x, y)"),
+                    option::gridExtent(),
+                    {.name = "estimator",
+                     .type = ParamType::choice,
+                     .value = std::string("best"),
+                     .choices = {"analogue", "best"},
+                     .doc = "best: R, T, A follow controls of known mean, and walks that foresee where light "
+                            "leaves know R(r), T(r) and angles, unless a pilot finds no gain; these have no part in "
+                            "--grid, --maps, clear layers, tabulated phase functions"},
+                    {.name = "exact",
+                     .type = ParamType::toggle,
+                     .value = false,
+                     .doc = "solve R(r), T(r) and totals without walks: normal incidence, no clear layers, |g| up "
+                            "to 0.9; stderr then estimates the numerical error"},
+                    option::walkBackend(),
+                    option::threads(),
+                    option::untilError("R, T and A"),
+                    option::resume()},
+        .uses_seed = true,
+        .shares_walks = true,
+        .output = "the JSON document",
+        .run = runReferenceSlab};
 }
 
 }  // namespace searchlight

@@ -9,8 +9,8 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "model/plane.h"
-#include "transport/half_space/exact_half_space.h"
-#include "transport/half_space/ordinate_half_space.h"
+#include "transport/exact/exact_half_space.h"
+#include "transport/exact/ordinate_half_space.h"
 #include "transport/walk/radial_edges.h"
 
 namespace searchlight {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <type_traits>
 
 #include "base/error.h"
 #include "base/version.h"
@@ -87,8 +88,10 @@ JobResult radianceOfBody(const Job& job, const BodySetup& setup, const Body& bod
     const bool interrupted = std::ranges::any_of(channels, [](const auto& c) { return c && c->interrupted; });
     Json document = documentJson("searchlight-reference/1", job);
     document["geometry"] = geometry;
-    const bool asks = setup.subject.medium.eta == 1 || setup.lights.singular();
-    document["estimator"] = asks ? "radiance, light at each collision" : "radiance, analogue";
+    const bool beams = setup.lights.singular() || (std::is_same_v<Body, MeshBody> && setup.lights.narrow());
+    document["estimator"] = setup.subject.medium.eta == 1 ? "radiance, light at each collision"
+                            : beams                       ? "radiance, beams at collisions"
+                                                          : "radiance, analogue";
     document["material"] = subjectJson(setup.subject);
     document["volume_mm3"] = body.volume();
     document["area_mm2"] = body.area();
@@ -103,6 +106,7 @@ JobResult radianceOfBody(const Job& job, const BodySetup& setup, const Body& bod
     list("surface_tests", [](const BodyRadiance& r) { return r.rays; });
     list("lost", [](const BodyRadiance& r) { return r.lost; });
     list("mirrored", [](const BodyRadiance& r) { return r.mirrored; });
+    list("mirrored_orders", [](const BodyRadiance& r) { return r.orders; });
     list("mean_radiance", [](const BodyRadiance& r) { return brightnessOf(r).mean; });
     list("mean_radiance_stderr", [](const BodyRadiance& r) { return brightnessOf(r).standard_error; });
     list("seconds", [](const BodyRadiance& r) { return r.seconds; });
@@ -132,8 +136,9 @@ JobResult radianceOfBody(const Job& job, const BodySetup& setup, const Body& bod
                                    "RGB"[c], e.mean, e.standard_error, static_cast<double>(r.walks),
                                    static_cast<double>(r.collisions) / r.seconds);
         if (r.mirrored > 1e-4)
-            result.text += fmt::format("     of the light {:.2g} is mirrored inside before it scatters, and left out\n",
-                                       r.mirrored);
+            result.text += fmt::format(
+                "     of the light {:.2g} is mirrored inside more than {} times before it scatters, and left out\n",
+                r.mirrored, r.orders);
     }
     for (const std::string& note : setup.subject.notes) result.text += note + "\n";
     result.interrupted = interrupted;

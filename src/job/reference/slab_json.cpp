@@ -36,9 +36,12 @@ std::string line(const std::string& what, const Estimate& e) {
     return fmt::format("{:<26} {:.6f} +- {:.6f}\n", what, e.mean, e.standard_error);
 }
 
-}  // namespace
+std::string exactLine(const std::string& what, const Estimate& e) {
+    return fmt::format("{:<26} {:.9f} +- {:.0e}\n", what, e.mean, e.standard_error);
+}
 
-Json slabJson(const SlabProblem& problem, const SlabOptions& options, const SlabResult& result) {
+// What a walk and a solution have in common; before the profiles.
+Json totalsJson(const SlabProblem& problem, const SlabResult& result) {
     Json json;
     json["n_above"] = problem.n_above;
     json["n_below"] = problem.n_below;
@@ -47,12 +50,19 @@ Json slabJson(const SlabProblem& problem, const SlabOptions& options, const Slab
     json["layers"] = layersJson(problem, result);
     json["specular"] = result.specular;
     json["R"] = estimateJson(result.R);
-    json["R_single"] = estimateJson(result.R_single);
-    json["R_multiple"] = estimateJson(result.R_multiple);
     json["R_unscattered"] = estimateJson(result.R_unscattered);
     json["T"] = estimateJson(result.T);
     json["T_unscattered"] = estimateJson(result.T_unscattered);
     json["A"] = estimateJson(result.A);
+    return json;
+}
+
+}  // namespace
+
+Json slabJson(const SlabProblem& problem, const SlabOptions& options, const SlabResult& result) {
+    Json json = totalsJson(problem, result);
+    json["R_single"] = estimateJson(result.R_single);
+    json["R_multiple"] = estimateJson(result.R_multiple);
     json["edges_mm"] = options.edges_mm;
     json["R_r"] = seriesJson(result.R_r, "1/mm^2");
     json["R_r_single"] = seriesJson(result.R_r_single, "1/mm^2");
@@ -104,6 +114,29 @@ std::string slabText(const SlabProblem& problem, const SlabResult& result) {
                                 : fmt::format("{} threads ({})", result.threads, result.instruction_set),
                             result.seconds);
     return text;
+}
+
+Json exactSlabJson(const SlabProblem& problem, const SlabOptions& options, const SlabResult& result) {
+    Json json = totalsJson(problem, result);
+    json["edges_mm"] = options.edges_mm;
+    json["R_r"] = seriesJson(result.R_r, "1/mm^2");
+    json["T_r"] = seriesJson(result.T_r, "1/mm^2");
+    json["seconds"] = result.seconds;
+    json["threads"] = result.threads;
+    return json;
+}
+
+std::string exactSlabText(const SlabProblem& problem, const SlabResult& result) {
+    std::string text = fmt::format("{:<26} {:.9f}\n", "specular reflectance", result.specular);
+    text += exactLine("diffuse reflectance", result.R);
+    if (result.R_unscattered.mean > 0) text += exactLine("unscattered reflectance", result.R_unscattered);
+    text += exactLine("diffuse transmittance", result.T);
+    text += exactLine("unscattered transmittance", result.T_unscattered);
+    text += exactLine("absorbed", result.A);
+    for (std::size_t i = 0; i < problem.layers.size() && problem.layers.size() > 1; ++i)
+        text += exactLine(fmt::format("  in layer {}", i + 1), result.A_layer[i]);
+    return text +
+           fmt::format("{:.3g} s; +- estimates the numerical error; the profiles are in --json\n", result.seconds);
 }
 
 }  // namespace searchlight

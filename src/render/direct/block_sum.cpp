@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "geometry/random_stream.h"
+#include "base/random.h"
 #include "render/exitance/receiver_tree.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -111,7 +111,7 @@ std::uint64_t sumRange(const ReceiverBlocks& receivers, const BlockSources& sour
     taken.reserve(sources.x.size());
     std::uint64_t pairs = 0;
     for (std::size_t block = begin; block < end; ++block) {
-        RandomStream random(roulette.seed, block);
+        SplitMix64 random = streamOf(roulette.seed, block);
         const std::size_t shift = random.next() % sources.x.size();
         const std::size_t count =
             take(boxOf(receivers, block), sources, thresholds.data() + shift, roulette.rate, taken);
@@ -161,7 +161,7 @@ std::uint64_t sumBlocks(const ReceiverBlocks& receivers, const BlockSources& giv
     std::vector<float> thresholds(2 * count);
     const double reach_square = roulette.reach_mm * roulette.reach_mm;
     for (std::size_t i = 0; i < count; ++i) {
-        RandomStream random(~roulette.seed, i);
+        SplitMix64 random = streamOf(~roulette.seed, i);
         const double most =
             roulette.rate > 0 ? -std::log(random.uniform()) / roulette.rate : std::numeric_limits<double>::infinity();
         thresholds[i] = thresholds[count + i] = static_cast<float>(std::min(most * most, reach_square));

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numeric>
 
-#include "geometry/random_stream.h"
+#include "base/random.h"
 #include "geometry/vertex_normals.h"
 
 namespace searchlight {
@@ -57,7 +57,7 @@ ChosenPoints EvenPoints::draw(std::size_t count, std::uint64_t seed) const {
     points.normals.reserve(count);
     std::size_t k = 0;
     for (std::size_t i = 0; i < count; ++i) {
-        RandomStream random(seed, i);
+        SplitMix64 random = streamOf(seed, i);
         const double at = (static_cast<double>(i) + random.uniform()) / static_cast<double>(count) * area();
         while (k + 1 < order_.size() && cumulative_[k + 1] <= at) ++k;
         // What is left of `at` in its triangle is uniform there: it serves as the first of the two numbers.

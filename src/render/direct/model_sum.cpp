@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "geometry/random_stream.h"
+#include "base/random.h"
 
 namespace searchlight {
 
@@ -115,7 +115,7 @@ std::uint64_t sumModelBlocks(const RenderInput& input, const ModelEvaluators& ev
         for (std::size_t i = 0; i < sources.size(); ++i)
             total += shares[i] = brightness(sources[i].flux) * envelope(box.squareTo(sources[i].position));
         taken.clear();
-        RandomStream random(choice.seed, block);
+        SplitMix64 random = streamOf(choice.seed, block);
         const double wanted = static_cast<double>(choice.sources);
         for (std::size_t i = 0; i < sources.size(); ++i) {
             const double by_envelope = total > 0 ? (1 - even_part) * shares[i] / total : 0;

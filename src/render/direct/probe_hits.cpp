@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "geometry/random_stream.h"
+#include "base/random.h"
 #include "light/stratified.h"
 
 namespace searchlight {
@@ -22,7 +22,7 @@ ProbeHits hitsOf(const Probes& probes, const VisibleSurface& visible, std::size_
     std::vector<std::uint32_t> owner;
     for (std::size_t i = begin; i < end; ++i) {
         frames.emplace_back(toDouble(visible.normals[i]));
-        const StratifiedSequence sequence(RandomStream(seed, i).next());
+        const StratifiedSequence sequence(streamOf(seed, i).next());
         for (int k = 0; k < per_receiver; ++k) {
             const auto [u, v] = sequence(static_cast<std::uint32_t>(k));
             lines.push_back(probes.sample(toDouble(visible.positions[i]), frames.back(), u, v));

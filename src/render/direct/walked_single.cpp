@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "geometry/random_stream.h"
+#include "base/random.h"
 #include "transport/mesh/first_orders.h"
 
 namespace searchlight {
@@ -56,7 +56,7 @@ WalkedSingle::WalkedSingle(const RenderInput& input)
       cells_(cellsOf(*input.visible, body_)) {
     std::ranges::fill(lit_, false);
     if (lights_.dark()) return;
-    RandomStream random(input.light.seed, 0);
+    SplitMix64 random = streamOf(input.light.seed, 0);
     for (int i = 0; i < light_draws; ++i) {
         const double light = random.uniform(), u = random.uniform(), v = random.uniform();
         const Rgb found = lights_.sample({}, light, u, v).irradiance_over_pdf;

@@ -16,12 +16,14 @@
 #include "render/exitance/fine_cell.h"
 #include "render/exitance/receiver_tree.h"
 #include "render/screen/blue_noise.h"
+#include "render/screen/equal_annuli.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/light_view/ring_filter.cpp"
 #include <hwy/foreach_target.h>
 
 #include "render/exitance/kernels-inl.h"
+#include "render/screen/equal_annuli-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace searchlight {
@@ -125,16 +127,9 @@ private:
     // A place by importance, mm from the receiver's.
     HWY_INLINE void drawn(const RingFilter::Draws& draws, std::size_t k, FloatV& a, FloatV& b) const {
         const Float d;
-        const Int di;
         const FloatV one = hn::Set(d, 1.0f), sum = hn::Add(shift_, hn::Set(d, draws.u[k]));
         const FloatV number = hn::IfThenElse(hn::Ge(sum, one), hn::Sub(sum, one), sum);
-        const auto parts = static_cast<std::int32_t>(tables_.annuli.size() / 2);
-        const FloatV u = hn::Mul(number, hn::Set(d, static_cast<float>(parts)));
-        const IntV part = hn::Min(hn::ConvertTo(di, u), hn::Set(di, parts - 1));
-        const IntV at = hn::ShiftLeft<1>(part);
-        const FloatV inner = hn::GatherIndex(d, tables_.annuli.data(), at);
-        const FloatV width = hn::GatherIndex(d, tables_.annuli.data() + 1, at);
-        const FloatV r = hn::Sqrt(hn::MulAdd(hn::Sub(u, hn::ConvertTo(d, part)), width, inner));
+        const FloatV r = radiusIn(tables_.annuli, number);
         const FloatV c = hn::Set(d, draws.cosine[k]), s = hn::Set(d, draws.sine[k]);
         a = hn::Mul(r, hn::NegMulAdd(s, sine_, hn::Mul(c, cosine_)));
         b = hn::Mul(r, hn::MulAdd(s, cosine_, hn::Mul(c, sine_)));
@@ -268,21 +263,6 @@ Profile densityOf(const Profile& profile, double reach) {
     return {std::move(radii), std::move(values)};
 }
 
-std::vector<float> annuliOf(const Profile& density) {
-    constexpr int parts = 2048;
-    std::vector<float> annuli;
-    double inner = 0;
-    for (int i = 1; i <= parts; ++i) {
-        const double outer =
-            i < parts ? density.sampleRadius(static_cast<double>(i) / parts, 0) : density.radii().back();
-        const double width = std::max(outer * outer - inner * inner, 1e-12 * outer * outer);
-        annuli.push_back(static_cast<float>(inner * inner));
-        annuli.push_back(static_cast<float>(width));
-        inner = outer;
-    }
-    return annuli;
-}
-
 // The middle and the rings, each turned by the golden section against the one before; in a ring radii go by turns, so
 // that no two samples of a ring that stand side by side are equally far.
 void layOut(int rings, int spokes, RingFilter::Draws& tangent, RingFilter::Draws& facing) {
@@ -312,7 +292,7 @@ RingFilter::Tables tablesOf(const Profile& profile, double reach, std::uint64_t 
     const Profile density = densityOf(profile, std::min(reach, profile.radii().back()));
     return {.Rd = RadialTable(profile, fineCellArea(profile)),
             .density = RadialTable(density, fineCellArea(density)),
-            .annuli = annuliOf(density),
+            .annuli = equalAnnuli(density),
             .tangent = {},
             .facing = {},
             .shift = blueNoise(seed),

@@ -50,9 +50,8 @@ public:
 
     /// What the lanes read.
     struct Tables {
-        RadialTable Rd, density;  ///< density: of samples, per mm^2, in every channel
-        std::vector<float>
-            annuli;  ///< per part of equal probability: square of its inner radius, and its width in that
+        RadialTable Rd, density;    ///< density: of samples, per mm^2, in every channel
+        std::vector<float> annuli;  ///< equalAnnuli(density)
         Draws tangent, facing;
         std::vector<float> shift, angle;  ///< tiles of blue noise
     };

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "geometry/random_stream.h"
+#include "base/random.h"
 
 namespace searchlight {
 
@@ -58,7 +58,7 @@ std::vector<float> blueNoise(std::uint64_t seed) {
     // A tenth of the cells at random, moved from clusters into voids until that changes nothing.
     constexpr std::size_t few = cells / 10;
     Crowd crowd;
-    RandomStream random(seed, 0);
+    SplitMix64 random = streamOf(seed, 0);
     for (std::size_t placed = 0; placed < few;) {
         const std::size_t cell = random.next() % cells;
         if (crowd.isSet(cell)) continue;

@@ -6,23 +6,15 @@
 #define SEARCHLIGHT_RENDER_GRID_LOOKUP_INL_H_
 #endif
 
-#include <hwy/highway.h>
-
 #include <array>
 #include <cstddef>
 
+#include "base/lanes-inl.h"
 #include "render/screen/filter_pass.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace searchlight {
 namespace HWY_NAMESPACE {
-
-namespace hn = hwy::HWY_NAMESPACE;
-
-using Float = hn::CappedTag<float, 16>;
-using Int = hn::RebindToSigned<Float>;
-using FloatV = hn::Vec<Float>;
-using IntV = hn::Vec<Int>;
 
 // What the grid holds in the cells around a place; or the light that taps bring, and how much of them is seen.
 struct Texel {

@@ -11,17 +11,18 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "geometry/random_stream.h"
 #include "light/stratified.h"
 #include "render/exitance/fine_cell.h"
 #include "render/exitance/receiver_tree.h"
 #include "render/screen/blue_noise.h"
+#include "render/screen/equal_annuli.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/screen/tangent_samples.cpp"
 #include <hwy/foreach_target.h>
 
 #include "render/exitance/kernels-inl.h"
+#include "render/screen/equal_annuli-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace searchlight {
@@ -132,18 +133,7 @@ private:
         return plus(plus(xo_, hn::Mul(r, along), chart.s), hn::Mul(r, across), chart.t);
     }
 
-    // A radius by importance, for u in [0, 1).
-    HWY_INLINE FloatV radiusOf(FloatV number) const {
-        const Float d;
-        const Int di;
-        const auto parts = static_cast<std::int32_t>(tables_.annuli.size() / 2);
-        const FloatV u = hn::Mul(number, hn::Set(d, static_cast<float>(parts)));
-        const IntV part = hn::Min(hn::ConvertTo(di, u), hn::Set(di, parts - 1));
-        const IntV at = hn::ShiftLeft<1>(part);
-        const FloatV inner = hn::GatherIndex(d, tables_.annuli.data(), at);
-        const FloatV width = hn::GatherIndex(d, tables_.annuli.data() + 1, at);
-        return hn::Sqrt(hn::MulAdd(hn::Sub(u, hn::ConvertTo(d, part)), width, inner));
-    }
+    HWY_INLINE FloatV radiusOf(FloatV number) const { return radiusIn(tables_.annuli, number); }
 
     void takeSamples() {
         const Float d;
@@ -261,21 +251,6 @@ Profile densityOf(const Profile& profile) {
     return {std::move(radii), std::move(values)};
 }
 
-std::vector<float> annuliOf(const Profile& density) {
-    constexpr int parts = 2048;
-    std::vector<float> annuli;
-    double inner = 0;
-    for (int i = 1; i <= parts; ++i) {
-        const double outer =
-            i < parts ? density.sampleRadius(static_cast<double>(i) / parts, 0) : density.radii().back();
-        const double width = std::max(outer * outer - inner * inner, 1e-12 * outer * outer);
-        annuli.push_back(static_cast<float>(inner * inner));
-        annuli.push_back(static_cast<float>(width));
-        inner = outer;
-    }
-    return annuli;
-}
-
 TangentSampler::Draws drawsOf(int count, std::uint64_t seed) {
     TangentSampler::Draws draws;
     const StratifiedSequence sequence(seed);
@@ -292,7 +267,7 @@ TangentSampler::Tables tablesOf(const Profile& profile, int tangent, int facing,
     const Profile density = densityOf(profile);
     return {.Rd = RadialTable(profile, fineCellArea(profile)),
             .density = RadialTable(density, fineCellArea(density)),
-            .annuli = annuliOf(density),
+            .annuli = equalAnnuli(density),
             .even_radius = static_cast<float>(density.sampleRadius(0.9, 0)),
             .tangent = drawsOf(tangent, seed),
             .facing = drawsOf(facing / 2, seed + 1),

@@ -64,10 +64,9 @@ public:
 
     /// What the lanes read.
     struct Tables {
-        RadialTable Rd, density;  ///< density: of samples by importance, per mm^2, in every channel
-        std::vector<float>
-            annuli;             ///< per part of equal probability: square of its inner radius, and its width in that
-        float even_radius = 0;  ///< mm
+        RadialTable Rd, density;    ///< density: of samples by importance, per mm^2, in every channel
+        std::vector<float> annuli;  ///< equalAnnuli(density)
+        float even_radius = 0;      ///< mm
         Draws tangent, facing, even;
         std::vector<float> noise_u, noise_angle;  ///< tiles of blue noise
     };

@@ -10,7 +10,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "geometry/random_stream.h"
+#include "base/random.h"
 #include "model/physics.h"
 #include "model/plane.h"
 #include "render/sphere/directions.h"
@@ -30,7 +30,7 @@ std::vector<std::uint32_t> allCells(const Ball& ball) {
 }
 
 // As light leaves: density T21 cos / (pi 4 C_phi(1/eta)), by rejection from the cosine.
-Vec3 leavingDirection(Vec3 normal, double eta, RandomStream& random) {
+Vec3 leavingDirection(Vec3 normal, double eta, SplitMix64& random) {
     while (true) {
         const double u = random.uniform(), turn = 2 * std::numbers::pi * random.uniform(), chance = random.uniform();
         const double cosine = std::sqrt(1 - u);
@@ -66,7 +66,7 @@ void SphereIntegral::addTo(std::size_t first, std::size_t count) {
         const std::size_t end = std::min(count, (chunk + 1) * kChunk);
         for (std::size_t i = chunk * kChunk; i < end; ++i) {
             const std::uint32_t cell = options_.cells[first + i];
-            RandomStream random(options_.seed, samples_ * ball_.cellCount() + cell);
+            SplitMix64 random = streamOf(options_.seed, samples_ * ball_.cellCount() + cell);
             const double a = random.uniform(), b = random.uniform();
             const Vec3 no = directionInCell(ball_.cells(), cell, a, b);
             const Vec3 wo = model_.file.no_wo ? no : leavingDirection(no, medium_.eta, random);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "geometry/random_stream.h"
+#include "base/random.h"
 #include "light/transmitted_cosine.h"
 #include "render/sphere/directions.h"
 
@@ -26,7 +26,7 @@ SurfaceLight::SurfaceLight(const LightSampler& lights, double radius_mm, double 
     std::vector<double> brightness(cells_.size());
     double sum = 0;
     for (std::size_t cell = 0; cell < cells_.size(); ++cell) {
-        RandomStream random(0, cell);
+        SplitMix64 random = streamOf(0, cell);
         for (int i = 0; i < kPoints; ++i) {
             const double u = random.uniform(), v = random.uniform();
             const Vec3 normal = directionInCell(cells_, cell, u, v);

@@ -4,12 +4,12 @@
 #include <cassert>
 #include <cmath>
 
-#include "geometry/random_stream.h"
+#include "base/random.h"
 
 namespace searchlight {
 
 SampleNumbers sampleNumbers(std::size_t k, std::size_t n, std::uint64_t seed) {
-    RandomStream random(seed, 0x7e57);
+    SplitMix64 random = streamOf(seed, 0x7e57);
     const double along = random.uniform(), across = random.uniform(), around = random.uniform();
     // Powers of 1 / 1.3247..., the root of x^3 = x + 1 [Roberts2018].
     constexpr double first = 0.7548776662466927, second = 0.5698402909980532;

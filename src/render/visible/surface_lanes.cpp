@@ -3,18 +3,12 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/visible/surface_lanes.cpp"
 #include <hwy/foreach_target.h>
-#include <hwy/highway.h>
+
+#include "base/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace searchlight {
 namespace HWY_NAMESPACE {
-
-namespace hn = hwy::HWY_NAMESPACE;
-
-using Float = hn::CappedTag<float, 16>;
-using Int = hn::RebindToSigned<Float>;
-using FloatV = hn::Vec<Float>;
-using IntV = hn::Vec<Int>;
 
 struct Vectors {
     FloatV x, y, z;

@@ -6,24 +6,17 @@
 #define SEARCHLIGHT_RENDER_TRIANGLE_LANES_INL_H_
 #endif
 
-#include <hwy/highway.h>
-
 #include <bit>
 #include <cstddef>
 #include <cstdint>
 
+#include "base/lanes-inl.h"
 #include "render/visible/raster.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace searchlight {
 namespace HWY_NAMESPACE {
 
-namespace hn = hwy::HWY_NAMESPACE;
-
-using Float = hn::CappedTag<float, 16>;
-using Int = hn::RebindToSigned<Float>;
-using FloatV = hn::Vec<Float>;
-using IntV = hn::Vec<Int>;
 using Double = hn::CappedTag<double, 8>;
 using DoubleV = hn::Vec<Double>;
 using Long = hn::RebindToSigned<Double>;

@@ -5,9 +5,12 @@
 // without bound), and comes with its opposite azimuth; 16 lanes share it (ways_out-inl.h). What crosses the surface
 // later was counted already: only the reflected part goes on.
 //
+// Where a phase function is too sharp for that, what crosses the surface is tallied: its refracted part, and the other
+// goes on.
+//
 // Importance: weight times importance below 0.8 meets a roulette, above 2 the walk is split (importance.h).
 //
-// Order 1 is exact at normal incidence.
+// Order 1 is exact (single_scattering.h).
 //
 // Everything that is random depends on the lane and its 16 alone, and sums run in lane order: the result does not
 // depend on the width of the hardware's vectors.
@@ -43,6 +46,14 @@ struct alignas(64) BestLanes {
     std::int32_t order[kLanes];
     std::uint64_t s0[kLanes / 2], s1[kLanes / 2];
     float moments[4][kLanes];  // weight times x and r^2, of order 1 and of all, not yet in the sums
+};
+
+// What crossed the surface, until there is enough of it.
+struct alignas(64) BestExits {
+    static constexpr std::size_t kEnough = 192;
+    float x[kEnough + kLanes + 16], y[kEnough + kLanes + 16], weight[kEnough + kLanes + 16];
+    std::int32_t order[kEnough + kLanes + 16];
+    std::size_t count = 0;
 };
 
 struct BestPack {
@@ -86,13 +97,17 @@ public:
                 ways_.renew();
                 way_ = 0;
             }
-            for (std::size_t at = 0; at < kLanes; at += hn::Lanes(Float())) advance(at);
+            // Long flights of operations are cut in two, so that those of several packs overlap.
+            for (std::size_t at = 0; at < kLanes; at += hn::Lanes(Float())) fly(at);
+            for (std::size_t at = 0; at < kLanes; at += hn::Lanes(Float())) judge(at);
+            if (!kForesees && exits_.count >= BestExits::kEnough) depositExits();
             if (split_ != 0) splitWalks();
             if (++steps == flush_steps) {
                 flush();
                 steps = 0;
             }
         }
+        if constexpr (!kForesees) depositExits();
         flush();
         finish(tally);
         return collisions;
@@ -137,10 +152,8 @@ private:
     }
 
     // The collision of each walk, its flight to the next, and whether that one is worth having.
-    HWY_INLINE void advance(std::size_t at) {
+    HWY_INLINE void fly(std::size_t at) {
         const Float d;
-        const Int di;
-        const FloatV zero = hn::Zero(d), one = hn::Set(d, 1.0f);
         BestPack pack = load(at);
         const FloatV luck = fineUniform(pack.random.next());
         const FloatV s = signedUniform(pack.random.next());
@@ -156,7 +169,20 @@ private:
         if (plan_.tuning.stretched > 0) stretch(pack, length);
         pack.x = hn::MulAdd(length, pack.direction.u, pack.x);
         pack.y = hn::MulAdd(length, pack.direction.v, pack.y);
-        const FloatV z = hn::MulAdd(length, pack.direction.w, pack.z);
+        pack.z = hn::MulAdd(length, pack.direction.w, pack.z);
+        hn::Store(luck, d, lanes_.value + at);
+        store(pack, at);
+        if constexpr (kIsotropic) hn::Store(pack.direction.w, d, lanes_.w + at);
+    }
+
+    // What the surface and the importance do to it.
+    HWY_INLINE void judge(std::size_t at) {
+        const Float d;
+        const Int di;
+        const FloatV zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+        BestPack pack = load(at);
+        if constexpr (kIsotropic) pack.direction.w = hn::Load(d, lanes_.w + at);
+        const FloatV luck = hn::Load(d, lanes_.value + at), z = pack.z;
         const FloatM crosses = hn::Lt(z, zero);
         const FloatV onward = pack.direction.w;
         pack.z = hn::Abs(z);  // under a plane mirror the reflected path is the mirrored path
@@ -165,8 +191,12 @@ private:
         if constexpr (kFresnel) reflected = hn::Mul(pack.weight, reflectance(hn::Neg(onward)));
         if constexpr (!kForesees) {
             const FloatV back = hn::Div(z, hn::Neg(onward));  // from where the surface was crossed
-            deposit<0>(pack, at, hn::MulAdd(back, pack.direction.u, pack.x), hn::MulAdd(back, pack.direction.v, pack.y),
-                       hn::IfThenElseZero(crosses, hn::Sub(pack.weight, reflected)));
+            const std::size_t count = exits_.count;
+            storeSet(hn::MulAdd(back, pack.direction.u, pack.x), crosses, d, exits_.x + count);
+            storeSet(hn::MulAdd(back, pack.direction.v, pack.y), crosses, d, exits_.y + count);
+            storeSet(hn::Sub(pack.weight, reflected), crosses, d, exits_.weight + count);
+            storeSet(pack.order, hn::RebindMask(di, crosses), di, exits_.order + count);
+            exits_.count += hn::CountTrue(d, crosses);
         }
         pack.weight = hn::IfThenElse(crosses, reflected, pack.weight);
         pack.order = hn::Min(hn::Add(pack.order, hn::Set(di, 1)), hn::Set(di, kEndlessWalk));
@@ -208,26 +238,37 @@ private:
         const FloatV leaves = hn::Mul(hn::Mul(pack.weight, hn::Set(d, ways_.share[way] / kWays)), expNegative(path));
         const FloatV dx = hn::Mul(pack.z, hn::Set(d, ways_.x[way])), dy = hn::Mul(pack.z, hn::Set(d, ways_.y[way]));
         if constexpr (kIsotropic) {
-            deposit<0>(pack, at, hn::Add(pack.x, dx), hn::Add(pack.y, dy), leaves);
-            deposit<1>(pack, at, hn::Sub(pack.x, dx), hn::Sub(pack.y, dy), leaves);
+            deposit<0>(pack.order, at, hn::Add(pack.x, dx), hn::Add(pack.y, dy), leaves);
+            deposit<1>(pack.order, at, hn::Sub(pack.x, dx), hn::Sub(pack.y, dy), leaves);
         } else {
             const FloatV across = hn::MulAdd(hn::Set(d, ways_.u[way]), pack.direction.u,
                                              hn::Mul(hn::Set(d, ways_.v[way]), pack.direction.v));
             const FloatV up = hn::Mul(hn::Set(d, ways_.w[way]), pack.direction.w), g = set(plan_.walk.g);
-            deposit<0>(pack, at, hn::Add(pack.x, dx), hn::Add(pack.y, dy),
+            deposit<0>(pack.order, at, hn::Add(pack.x, dx), hn::Add(pack.y, dy),
                        hn::Mul(leaves, henyeyGreensteinGain(g, hn::Sub(across, up))));
-            deposit<1>(pack, at, hn::Sub(pack.x, dx), hn::Sub(pack.y, dy),
+            deposit<1>(pack.order, at, hn::Sub(pack.x, dx), hn::Sub(pack.y, dy),
                        hn::Mul(leaves, henyeyGreensteinGain(g, hn::Neg(hn::Add(across, up)))));
         }
     }
 
+    HWY_NOINLINE void depositExits() {
+        const Float d;
+        // The last vector is filled up with what weighs nothing.
+        for (std::size_t i = exits_.count; i % kCopies != 0; ++i)
+            exits_.x[i] = exits_.y[i] = exits_.weight[i] = 0, exits_.order[i] = 1;
+        for (std::size_t i = 0; i < exits_.count; i += hn::Lanes(d))
+            deposit<0>(hn::Load(Int(), exits_.order + i), i % kCopies, hn::Load(d, exits_.x + i),
+                       hn::Load(d, exits_.y + i), hn::Load(d, exits_.weight + i));
+        exits_.count = 0;
+    }
+
     // `weight` leaves at (x, y); kWay is one of the collision's.
     template <std::size_t kWay>
-    HWY_INLINE void deposit(const BestPack& pack, std::size_t at, FloatV x, FloatV y, FloatV weight) {
+    HWY_INLINE void deposit(IntV order, std::size_t at, FloatV x, FloatV y, FloatV weight) {
         const Float d;
         const Int di;
         const FloatV r2 = hn::MulAdd(x, x, hn::Mul(y, y));
-        const hn::Mask<Int> first = hn::Eq(pack.order, hn::Set(di, 1));
+        const hn::Mask<Int> first = hn::Eq(order, hn::Set(di, 1));
         const FloatM is_first = hn::RebindMask(d, first);
         IntV slot = slotOf(plan_.bins, r2);
         if (plan_.single)
@@ -257,9 +298,16 @@ private:
         const Int di;
         const FloatV offset = hn::Set(d, plan_.importance.offset);
         constexpr int last = ImportanceTable::kCells - 1, bits = ImportanceTable::kMantissaBits;
-        const FloatV rho2 = hn::MulAdd(pack.x, pack.x, hn::MulAdd(pack.y, pack.y, offset));
+        FloatV x = pack.x, y = pack.y, z = pack.z;
+        if constexpr (!kIsotropic) {
+            const FloatV ahead = hn::Set(d, plan_.importance.ahead);
+            x = hn::MulAdd(ahead, pack.direction.u, x);
+            y = hn::MulAdd(ahead, pack.direction.v, y);
+            z = hn::Max(hn::MulAdd(ahead, pack.direction.w, z), hn::Zero(d));
+        }
+        const FloatV rho2 = hn::MulAdd(x, x, hn::MulAdd(y, y, offset));
         const IntV column = logarithmicCell<bits>(rho2, offset, last);
-        const IntV row = logarithmicCell<bits>(hn::MulAdd(pack.z, pack.z, offset), offset, last);
+        const IntV row = logarithmicCell<bits>(hn::MulAdd(z, z, offset), offset, last);
         const IntV index = hn::Add(hn::Mul(row, hn::Set(di, ImportanceTable::kCells)), column);
         return faded(hn::GatherIndex(d, plan_.importance.value.data(), index), pack.order);
     }
@@ -359,6 +407,7 @@ private:
     std::uint64_t free_ = ~std::uint64_t{0}, split_ = 0;  // one bit a lane
     std::vector<Waiting> bank_;
     BestLanes lanes_;
+    BestExits exits_;
 };
 
 template <bool kFresnel, bool kIsotropic, bool kForesees>

@@ -2,17 +2,18 @@
 // there, and it is followed only where that still matters.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "base/random.h"
 #include "transport/half_space/guided_walk.h"
 #include "transport/half_space/half_space_walk.h"
 #include "transport/half_space/importance.h"
 #include "transport/half_space/single_scattering.h"
 #include "transport/walk/lane_bins.h"
-#include "transport/walk/random.h"
 #include "transport/walk/tally.h"
 
 namespace searchlight {
@@ -32,12 +33,13 @@ struct BestPlan {
     LaneBins bins;
     GuidedWalk guided;
     TallyLayout layout;
-    double guided_share = 0;                 ///< guided walks for each walk; they tally the total and its moments
-    double guided_part = 0;                  ///< what counts of their bins; 1: there are no other walks
-    double x_slope = 0, r2_slope = 0;        ///< so much of their controls is taken off guided moments
-    bool guided_moments = false;             ///< those of all orders do, alone
-    bool counts_beyond = false;              ///< what they leave to the bins is beyond them
-    std::optional<SingleScattering> single;  ///< at normal incidence; otherwise walks tally order 1, too
+    double guided_share = 0;                   ///< guided walks for each walk; they tally the total and its moments
+    std::vector<double> guided_part;           ///< what counts of their bins, per slot of the layout; empty: nothing
+    std::array<double, 2> guided_whole{1, 1};  ///< what counts of their total and x
+    double x_slope = 0, r2_slope = 0;          ///< so much of their controls is taken off guided moments
+    bool guided_moments = false;               ///< those of all orders do, alone
+    bool counts_beyond = false;                ///< what they leave to the bins is beyond them
+    std::optional<SingleScattering> single;    ///< nothing: walks tally order 1, too
 };
 
 /// The walks with expected escape and importance alone, of a plan that foresees or has no guided walks.

@@ -18,6 +18,7 @@ struct ImportanceTable {
 
     double decay = 0;  ///< rate at which light dies out far from its source, per mean free path
     float offset = 1;
+    float ahead = 0;           ///< a walk is as important as one so far along its direction
     std::vector<float> value;  ///< kCells x kCells, row z, column rho
 };
 
@@ -27,6 +28,8 @@ struct BestTuning {
     double far = 0.4;       ///< rings count by this power of their radius: what is far is harder to know
     double total = 0.01;    ///< what the total counts beside the rings
     double depth = 0.25;    ///< a walk is as important as a source so far below it, in reduced mean free paths
+    double ahead = 0.6;     ///< of the way that a walk still goes along its direction, on average
+    double shallow = 0;     ///< so many times as important at the surface, besides
     double stretched = 0;   ///< part of the flights that are drawn longer
 };
 

@@ -9,11 +9,11 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "base/random.h"
 #include "transport/half_space/half_space_walk.h"
 #include "transport/walk/fresnel.h"
 #include "transport/walk/lane_foresee-inl.h"
 #include "transport/walk/lane_scatter-inl.h"
-#include "transport/walk/random.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace searchlight {

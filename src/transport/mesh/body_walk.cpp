@@ -55,6 +55,8 @@ struct Group {
     std::uint64_t uncleared = 0;  // flights that may have met the surface
     std::uint64_t ends = 0;       // absorbed
     std::uint64_t deep = 0;       // where a large step fits
+    std::uint64_t collided = 0;   // at a collision after the step, and
+    std::uint64_t scattered = 0;  // before it
     std::uint64_t doubtful = 0;   // flights since `sure` were tested and met nothing
     Sure sure[kLanes];            // of those lanes: the start of the last flight known to begin inside
     int taken_back[kLanes] = {};
@@ -64,7 +66,8 @@ struct Group {
     alignas(64) std::int32_t survives[kLanes];
     float weight[kLanes];
     std::uint32_t tag[kLanes];
-    std::int32_t way[kLanes];  // of the next large step
+    std::int32_t way[kLanes];          // of the next large step
+    float begin[kLanes], end[kLanes];  // of an uncleared flight: the part that no region holds
 };
 
 template <class Body, class Regions, bool kIsotropic>
@@ -80,10 +83,15 @@ public:
         collisions_per_log_ = medium.absorbed > 0 ? -1 / std::log1p(-medium.absorbed) : 0;
         for (Group& group : groups_) {
             seed(group.lanes[0], seeds);
-            std::ranges::fill(group.regions.offset, 1.0f);
+            for (auto& plane : group.regions.planes) std::ranges::fill(plane.offset, 1.0f);
+            std::ranges::fill(group.begin, 0.0f);
+            std::ranges::fill(group.end, 1.0f);
             std::ranges::fill(group.regions.deep, deepAtFirst());
         }
         random_ = SplitMix64(seeds.next());
+        if (const int one_of = source.asksOneOf(); one_of > 0)
+            for (int lane = static_cast<int>(random_.uniform() * one_of); lane < 64; lane += one_of)
+                asks_ |= std::uint64_t{1} << lane;
     }
 
     BodyChunk run() {
@@ -92,19 +100,17 @@ public:
         const auto walks = [](const Group& group) { return group.walking != 0; };
         while (std::ranges::any_of(groups_, walks)) {
             for (Group& group : groups_) advance(group);
-            if (looksUp()) {
-                for (Group& group : groups_) lookUp(group);
-                cross(groups_);  // few of each: together they fill packets
-            } else {
-                for (Group& group : groups_) cross({&group, 1});
-            }
+            if (looksUp()) lookUp();
+            cross();
+            if (asks_ != 0) ask();
+            step();
             for (Group& group : groups_) {
-                if (group.deep != 0) step(group);
                 for (; group.ends != 0; group.ends &= group.ends - 1) {
                     const auto lane = static_cast<std::size_t>(std::countr_zero(group.ends));
                     chunk_.absorbed += group.weight[lane];
                     end(group, lane, to(group).collisions[lane]);
                 }
+                group.scattered = group.collided;
             }
             now_ ^= 1;
         }
@@ -135,10 +141,10 @@ private:
             ends |= bitsOf(hn::RebindMask(d, hn::Gt(pack.collisions, hn::Load(Int(), group.survives + at)))) << at;
         }
         group.uncleared = group.walking & ~stay;
+        group.collided = group.walking;
         group.ends = ends;
         group.deep = deep & stay & group.walking & ~ends;
         chunk_.flights += static_cast<std::uint64_t>(std::popcount(group.walking));
-        if (looksUp()) fetch(group);
     }
 
     bool looksUp() const {
@@ -146,30 +152,24 @@ private:
         return false;
     }
 
-    // The lanes whose flights are uncleared; the last of them fills its vector.
-    struct Uncleared {
-        HWY_ALIGN std::int32_t lanes[kLanes];
-        std::size_t count = 0;
+    // Lanes of all groups by their place after those of the first, in floats: together they fill vectors. The last one
+    // fills its vector.
+    struct LaneList {
+        HWY_ALIGN std::int32_t places[kGroups * kLanes];
+        std::uint8_t lanes[kGroups * kLanes];  // group and lane
+        std::size_t count = 0, filled = 0;
 
-        explicit Uncleared(std::uint64_t bits) {
-            for (; bits != 0; bits &= bits - 1) lanes[count++] = std::countr_zero(bits);
-            while (count % hn::Lanes(Float()) != 0) lanes[count] = lanes[count - 1], ++count;
+        LaneList(const Group* groups, std::uint64_t Group::*set) {
+            static_assert(sizeof(Group) % sizeof(float) == 0 && kGroups * kLanes <= 256);
+            for (std::size_t group = 0; group < kGroups; ++group)
+                for (std::uint64_t bits = groups[group].*set; bits != 0; bits &= bits - 1) {
+                    const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
+                    lanes[count] = static_cast<std::uint8_t>(group * kLanes + lane);
+                    places[count++] = static_cast<std::int32_t>(group * (sizeof(Group) / sizeof(float)) + lane);
+                }
+            for (filled = count; filled % hn::Lanes(Float()) != 0; ++filled) places[filled] = places[count - 1];
         }
     };
-
-    // Asks the memory for the regions that lookUp() will read.
-    HWY_INLINE void fetch(const Group& group) {
-        if constexpr (Regions::kLooksUp) {
-            const Float d;
-            const Uncleared uncleared(group.uncleared);
-            for (std::size_t i = 0; i < uncleared.count; i += hn::Lanes(d)) {
-                const IntV at = hn::Load(Int(), uncleared.lanes + i);
-                for (const Lanes* lanes : {&group.lanes[now_ ^ 1], &group.lanes[now_]})
-                    regions_.fetch(hn::GatherIndex(d, lanes->x, at), hn::GatherIndex(d, lanes->y, at),
-                                   hn::GatherIndex(d, lanes->z, at), hn::Lanes(d));
-            }
-        }
-    }
 
     static HWY_INLINE std::uint64_t bitsOf(FloatM mask) {
         std::uint8_t bits[8] = {};
@@ -177,39 +177,63 @@ private:
         return bits[0] | static_cast<std::uint64_t>(bits[1]) << 8;
     }
 
-    // Finds regions for walks that left theirs, and so clears flights.
-    HWY_INLINE void lookUp(Group& group) {
+    // Finds regions for walks that left theirs, and so clears flights. What is read is asked for one pass ahead.
+    HWY_NOINLINE void lookUp() {
         if constexpr (Regions::kLooksUp) {
             const Float d;
             const Int di;
             const std::size_t width = hn::Lanes(d);
-            const Uncleared uncleared(group.uncleared);
-            const Lanes &before = from(group), &after = to(group);
-            for (std::size_t i = 0; i < uncleared.count; i += width) {
-                const IntV at = hn::Load(di, uncleared.lanes + i);
+            const LaneList list(groups_, &Group::uncleared);
+            HWY_ALIGN std::int32_t places[2][kGroups * kLanes];
+            const Lanes &before = from(groups_[0]), &after = to(groups_[0]);
+            for (std::size_t i = 0; i < list.filled; i += width) {
+                const IntV at = hn::Load(di, list.places + i);
+                for (const auto& [lanes, to] : {std::pair(&before, places[0]), std::pair(&after, places[1])})
+                    hn::Store(regions_.seek(hn::GatherIndex(d, lanes->x, at), hn::GatherIndex(d, lanes->y, at),
+                                            hn::GatherIndex(d, lanes->z, at)),
+                              di, to + i);
+            }
+            for (auto& of : places)
+                for (std::size_t i = 0; i < list.filled; i += width)
+                    hn::Store(regions_.seekRegion(hn::Load(di, of + i)), di, of + i);
+            for (std::size_t i = 0; i < list.filled; i += width) {
+                const IntV at = hn::Load(di, list.places + i);
                 const auto take = [&](const float* of) { return hn::GatherIndex(d, of, at); };
                 const FloatV px = take(before.x), py = take(before.y), pz = take(before.z);
                 const FloatV qx = take(after.x), qy = take(after.y), qz = take(after.z);
                 // Preferably the region of where the flight ends: the next one begins there.
-                const Region end = regions_.at(qx, qy, qz), begin = regions_.at(px, py, pz);
+                const Region end = regions_.at(qx, qy, qz, hn::Load(di, places[1] + i)),
+                             begin = regions_.at(px, py, pz, hn::Load(di, places[0] + i));
                 const FloatM useful = end.holds(qx, qy, qz), by_end = hn::And(useful, end.holds(px, py, pz));
                 const FloatM known = begin.holds(px, py, pz), by_begin = hn::And(known, begin.holds(qx, qy, qz));
                 // Two convex regions that meet on the flight hold all of it. What rounding does to it is far below what
                 // regions were shrunk by.
                 const FloatV dx = hn::Sub(qx, px), dy = hn::Sub(qy, py), dz = hn::Sub(qz, pz);
-                const FloatV reached = hn::Add(begin.reaches(px, py, pz, dx, dy, dz),
-                                               end.reaches(qx, qy, qz, hn::Neg(dx), hn::Neg(dy), hn::Neg(dz)));
-                const FloatM by_both = hn::And(hn::And(known, useful), hn::Ge(reached, hn::Set(d, 1.0f)));
+                const FloatV first = hn::IfThenElseZero(known, begin.reaches(px, py, pz, dx, dy, dz));
+                const FloatV last =
+                    hn::Sub(hn::Set(d, 1.0f),
+                            hn::IfThenElseZero(useful, end.reaches(qx, qy, qz, hn::Neg(dx), hn::Neg(dy), hn::Neg(dz))));
+                const FloatM by_both = hn::Ge(first, last);
+                hn::ScatterIndex(first, d, groups_[0].begin, at);
+                hn::ScatterIndex(last, d, groups_[0].end, at);
                 const auto choose = [&](FloatV a, FloatV b) { return hn::IfThenElse(useful, a, b); };
-                group.regions.scatter(
-                    {choose(end.x, begin.x), choose(end.y, begin.y), choose(end.z, begin.z),
-                     choose(end.square, hn::IfThenElseZero(by_begin, begin.square)), choose(end.nx, begin.nx),
-                     choose(end.ny, begin.ny), choose(end.nz, begin.nz), choose(end.offset, begin.offset)},
-                    at, hn::Set(d, leastStep()));
+                Region kept{choose(end.x, begin.x),
+                            choose(end.y, begin.y),
+                            choose(end.z, begin.z),
+                            choose(end.square, hn::IfThenElseZero(by_begin, begin.square)),
+                            {}};
+                for (std::size_t j = 0; j < kPlanes; ++j) {
+                    const Region::Plane &e = end.planes[j], &b = begin.planes[j];
+                    kept.planes[j] = {choose(e.nx, b.nx), choose(e.ny, b.ny), choose(e.nz, b.nz),
+                                      choose(e.offset, b.offset)};
+                }
+                groups_[0].regions.scatter(kept, at, hn::Set(d, leastStep()));
                 std::uint64_t cleared = bitsOf(hn::Or(by_both, hn::Or(by_end, by_begin)));
-                for (; cleared != 0; cleared &= cleared - 1)
-                    group.uncleared &=
-                        ~(std::uint64_t{1} << uncleared.lanes[i + static_cast<std::size_t>(std::countr_zero(cleared))]);
+                if (i + width > list.count) cleared &= (std::uint64_t{1} << (list.count - i)) - 1;
+                for (; cleared != 0; cleared &= cleared - 1) {
+                    const unsigned lane = list.lanes[i + static_cast<std::size_t>(std::countr_zero(cleared))];
+                    groups_[lane / kLanes].uncleared &= ~(std::uint64_t{1} << lane % kLanes);
+                }
             }
         }
     }
@@ -222,35 +246,36 @@ private:
     }
 
     // Large steps of walks that have just scattered deep inside their region.
-    HWY_NOINLINE void step(Group& group) {
+    HWY_NOINLINE void step() {
         const Float d;
         const Int di;
         const std::size_t width = hn::Lanes(d);
-        Lanes& lanes = to(group);
-        HWY_ALIGN std::int32_t list[kLanes], bits[kLanes], balls[16];
-        std::size_t count = 0;
-        for (std::uint64_t rest = group.deep; rest != 0; rest &= rest - 1) {
-            bits[count] = static_cast<std::int32_t>(random_.next() >> 32);
-            list[count++] = std::countr_zero(rest);
-        }
-        for (; count % width != 0; ++count) list[count] = list[count - 1], bits[count] = bits[count - 1];
-        for (std::size_t i = 0; i < count; i += width) {
-            const IntV at = hn::Load(di, list + i);
+        const LaneList list(groups_, &Group::deep);
+        Group& first = groups_[0];
+        Lanes& lanes = to(first);
+        HWY_ALIGN std::int32_t bits[16], balls[16];
+        for (std::size_t i = 0; i < list.filled; i += width) {
+            std::int32_t last = 0;
+            for (std::size_t lane = 0; lane < width; ++lane) {
+                if (i + lane < list.count) last = static_cast<std::int32_t>(random_.next() >> 32);
+                bits[lane] = last;
+            }
+            const IntV at = hn::Load(di, list.places + i);
             const auto take = [&](const float* of) { return hn::GatherIndex(d, of, at); };
             LargeStep step{take(lanes.x),
                            take(lanes.y),
                            take(lanes.z),
                            {take(lanes.u), take(lanes.v), take(lanes.w)},
                            hn::GatherIndex(di, lanes.collisions, at)};
-            const LaneRegions& r = group.regions;
-            const Region region{take(r.x), take(r.y), take(r.z), take(r.square), {}, {}, {}, {}};
+            const LaneRegions& r = first.regions;
+            const Region region{take(r.x), take(r.y), take(r.z), take(r.square), {}};
             const IntV ball =
                 steps_.ballOf(hn::Sub(hn::Sqrt(region.square), hn::Sqrt(region.away(step.x, step.y, step.z))));
             hn::Store(ball, di, balls);
             for (std::size_t lane = 0; lane < width; ++lane) steps_.need(balls[lane]);
-            const IntV way = hn::GatherIndex(di, group.way, at);
-            steps_.take(step, ball, way, azimuth(hn::Load(di, bits + i)));
-            const IntV survives = hn::GatherIndex(di, group.survives, at);
+            const IntV way = hn::GatherIndex(di, first.way, at);
+            steps_.take(step, ball, way, azimuth(hn::Load(di, bits)));
+            const IntV survives = hn::GatherIndex(di, first.survives, at);
             const hn::Mask<Int> ends = hn::Gt(step.collisions, survives);
             step.collisions = hn::IfThenElse(ends, hn::Add(survives, hn::Set(di, 1)), step.collisions);
             hn::ScatterIndex(step.x, d, lanes.x, at);
@@ -260,34 +285,56 @@ private:
             hn::ScatterIndex(step.direction.v, d, lanes.v, at);
             hn::ScatterIndex(step.direction.w, d, lanes.w, at);
             hn::ScatterIndex(step.collisions, di, lanes.collisions, at);
-            hn::ScatterIndex(hn::Add(way, hn::Set(di, 1)), di, group.way, at);
-            for (std::uint64_t ended = bitsOf(hn::RebindMask(d, ends)); ended != 0; ended &= ended - 1)
-                group.ends |= std::uint64_t{1} << list[i + static_cast<std::size_t>(std::countr_zero(ended))];
+            hn::ScatterIndex(hn::Add(way, hn::Set(di, 1)), di, first.way, at);
+            std::uint64_t ended = bitsOf(hn::RebindMask(d, ends));
+            if (i + width > list.count) ended &= (std::uint64_t{1} << (list.count - i)) - 1;
+            for (; ended != 0; ended &= ended - 1) {
+                const unsigned lane = list.lanes[i + static_cast<std::size_t>(std::countr_zero(ended))];
+                groups_[lane / kLanes].ends |= std::uint64_t{1} << lane % kLanes;
+            }
+        }
+    }
+
+    // Tells the source of the collisions of lanes whose turn it is. Turns go round from a random one, so that each
+    // collision has the same chance, and lanes that began together are not asked together.
+    void ask() {
+        asks_ = std::rotl(asks_, 1);
+        for (Group& group : groups_) {
+            const Lanes &before = from(group), &after = to(group);
+            for (std::uint64_t rest = group.collided & ~group.ends & asks_; rest != 0; rest &= rest - 1) {
+                const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+                source_.collide(group.tag[lane], group.weight[lane], {after.x[lane], after.y[lane], after.z[lane]},
+                                {before.u[lane], before.v[lane], before.w[lane]});
+            }
         }
     }
 
     // Tests flights that no region clears against the surface.
-    void cross(std::span<Group> groups) {
+    void cross() {
         std::size_t count = 0;
-        for (Group& group : groups) {
+        for (Group& group : groups_) {
             group.doubtful &= group.uncleared;  // the others are inside
             const Lanes &before = from(group), &after = to(group);
             for (std::uint64_t rest = group.uncleared; rest != 0; rest &= rest - 1) {
                 const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
                 const Vec3f start{before.x[lane], before.y[lane], before.z[lane]};
-                flights_[count++] = {
-                    start, {after.x[lane] - start.x, after.y[lane] - start.y, after.z[lane] - start.z}, 0, 1};
+                flights_[count++] = {start,
+                                     {after.x[lane] - start.x, after.y[lane] - start.y, after.z[lane] - start.z},
+                                     group.begin[lane],
+                                     group.end[lane]};
             }
         }
         chunk_.rays += count;
-        body_.cross({flights_, count}, {crossings_, count});
-        const Crossing* crossing = crossings_;
-        for (Group& group : groups)
-            for (std::uint64_t rest = group.uncleared; rest != 0; rest &= rest - 1)
-                settle(group, static_cast<std::size_t>(std::countr_zero(rest)), *crossing++);
+        body_.cross({flights_, count}, {crossings_, count}, false);
+        Crossing* crossing = crossings_;
+        for (Group& group : groups_)
+            for (std::uint64_t rest = group.uncleared; rest != 0; rest &= rest - 1, ++crossing)
+                // Most often nothing is met, as before.
+                if (crossing->what != Crossing::What::none || (group.doubtful & rest & -rest) == 0)
+                    settle(group, static_cast<std::size_t>(std::countr_zero(rest)), *crossing);
     }
 
-    void settle(Group& group, std::size_t lane, const Crossing& crossing) {
+    void settle(Group& group, std::size_t lane, Crossing& crossing) {
         const std::uint64_t bit = std::uint64_t{1} << lane;
         const Lanes& before = from(group);
         Lanes& after = to(group);
@@ -315,7 +362,7 @@ private:
     }
 
     // Leaves through the surface or is reflected by it.
-    void meet(Group& group, std::size_t lane, const Crossing& crossing) {
+    void meet(Group& group, std::size_t lane, Crossing& crossing) {
         const Lanes& before = from(group);
         const Vec3 direction{before.u[lane], before.v[lane], before.w[lane]};
         const double cosine = std::clamp(dot(direction, crossing.normal), 0.0, 1.0);
@@ -326,13 +373,19 @@ private:
         const float weight = group.weight[lane];
         chunk_.left += weight;
         chunk_.exits = chunk_.exits + static_cast<double>(weight) * toDouble(crossing.position);
-        source_.leave(group.tag[lane], weight, direction, crossing, chunk_.cells);
+        crossing.cell = body_.cellOf(crossing);
+        if ((group.scattered >> lane & 1) != 0)
+            source_.leaveScattered(group.tag[lane], weight, {before.x[lane], before.y[lane], before.z[lane]}, direction,
+                                   crossing, chunk_.cells);
+        else
+            source_.leave(group.tag[lane], weight, direction, crossing, chunk_.cells);
         end(group, lane, before.collisions[lane]);
     }
 
     void put(Group& group, Lanes& lanes, std::size_t lane, Vec3f position, Vec3f direction) {
         group.regions.square[lane] = regions_.first();
         group.regions.deep[lane] = deepAtFirst();
+        group.collided &= ~(std::uint64_t{1} << lane);
         lanes.x[lane] = position.x, lanes.y[lane] = position.y, lanes.z[lane] = position.z;
         lanes.u[lane] = direction.x, lanes.v[lane] = direction.y, lanes.w[lane] = direction.z;
     }
@@ -372,6 +425,7 @@ private:
     BodyMedium medium_;
     Regions regions_;
     WalkSource& source_;
+    std::uint64_t asks_ = 0;  // the lanes whose collisions the source wants to know of
     LargeSteps<kIsotropic> steps_;
     float mfp_;
     double collisions_per_log_;  // -1 / log(albedo)

@@ -46,20 +46,23 @@ bool CameraSource<Body>::next(Entry& entry) {
 
 // Radiance over the square of the index is kept by refraction, in and out: its factors cancel.
 template <class Body>
-void CameraSource<Body>::leave(std::uint32_t tag, float weight, Vec3 direction, const Crossing& crossing,
-                               std::vector<CellExit>& exits) {
-    if (std::holds_alternative<UniformLight>(light_)) {
-        exits.push_back({tag, weight});
-        return;
-    }
+double CameraSource<Body>::radianceBeyond(Vec3 direction, const Crossing& crossing, bool wide_only) const {
+    if (std::holds_alternative<UniformLight>(light_)) return 1;
     const double c = std::clamp(dot(direction, crossing.normal), 0.0, 1.0);
     const double outside = std::sqrt(std::max(0.0, 1 - eta_ * eta_ * (1 - c) * (1 + c)));
     const Vec3 wo = normalize(eta_ * direction + (outside - eta_ * c) * crossing.normal);
     const Vec3 position = toDouble(crossing.position);
-    const double radiance = std::get<const LightSampler*>(light_)->radiance(position, wo)[channel_];
+    const double radiance = std::get<const LightSampler*>(light_)->radiance(position, wo, wide_only)[channel_];
     if (radiance == 0 || body_.occluded({position, crossing.normal}, wo, std::numeric_limits<double>::infinity()))
-        return;
-    exits.push_back({tag, static_cast<float>(radiance * static_cast<double>(weight))});
+        return 0;
+    return radiance;
+}
+
+template <class Body>
+void CameraSource<Body>::leave(std::uint32_t tag, float weight, Vec3 direction, const Crossing& crossing,
+                               std::vector<CellExit>& exits) {
+    const double radiance = radianceBeyond(direction, crossing, false);
+    if (radiance > 0) exits.push_back({tag, static_cast<float>(radiance * static_cast<double>(weight))});
 }
 
 template class CameraSource<Ball>;

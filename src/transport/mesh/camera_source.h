@@ -32,6 +32,10 @@ public:
     void leave(std::uint32_t tag, float weight, Vec3 direction, const Crossing& crossing,
                std::vector<CellExit>& exits) override;
 
+protected:
+    /// What comes, over the weight of the walk, from where a walk that crosses the surface in this direction goes.
+    double radianceBeyond(Vec3 direction, const Crossing& crossing, bool wide_only) const;
+
 private:
     const Body& body_;
     const CameraRays& rays_;

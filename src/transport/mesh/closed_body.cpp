@@ -1,6 +1,7 @@
 #include "transport/mesh/closed_body.h"
 
 #include <fmt/format.h>
+
 #include <hwy/cache_control.h>
 
 #include <algorithm>
@@ -21,8 +22,10 @@ namespace {
 
 // Side of a cell of the safe regions in mean free paths, within limits of the mesh's length: measured on marble and
 // skin (docs/mesh-reference.md). Finer cells save rays and cost cache.
-constexpr double kCellMfp = 1.0;
+constexpr double kCellMfp = 1.3;
 constexpr double kMostAlong = 256, kFewestAlong = 32;
+// Regions reach no further than this part of the mesh, or each would be cut from most of its triangles.
+constexpr double kReachAlong = 20;
 
 // Single precision knows positions to 1e-3 mean free paths here.
 constexpr double kLargestMfp = 1e4;
@@ -118,7 +121,7 @@ SurfacePoint Ball::pointAt(double u, double v, double) const {
     return {radius_ * normal, normal};
 }
 
-void Ball::cross(std::span<const Ray> flights, std::span<Crossing> crossings) const {
+void Ball::cross(std::span<const Ray> flights, std::span<Crossing> crossings, bool cells) const {
     for (std::size_t i = 0; i < flights.size(); ++i) {
         const Vec3 p = toDouble(flights[i].origin), d = toDouble(flights[i].direction);
         // A start that rounding has put outside crosses at once if it goes outwards; a sphere loses no flight.
@@ -131,7 +134,7 @@ void Ball::cross(std::span<const Ray> flights, std::span<Crossing> crossings) co
         crossing.what = Crossing::What::surface;
         crossing.normal = normalize(p + t * d);
         crossing.position = crossing.inside = toFloat(radius_ * crossing.normal);
-        crossing.cell = cells_.at(crossing.normal);
+        if (cells) crossing.cell = cellOf(crossing);
     }
 }
 
@@ -191,9 +194,11 @@ MeshBody::MeshBody(const Mesh& mesh, const MeshBodyOptions& options)
     // Coordinates are rounded to 2^-25 of the largest; three of them, and the rounding of barycentric coordinates.
     nudge_ = static_cast<double>(rays_.extent()) * 0x1p-22;
     const double cell = std::clamp(kCellMfp * options.shortest_mfp, longest / kMostAlong, longest / kFewestAlong);
-    regions_ = options.regions ? buildSafeRegions(mesh_, cell, options.shortest_mfp, options.threads)
+    const double reach = std::min(options.shortest_mfp, longest / kReachAlong);
+    regions_ = options.regions ? buildSafeRegions(mesh_, cell, reach, options.threads)
                                : unknownRegion(toDouble(low), toDouble(high));
-    if (options.regions) grid_ = buildTriangleGrid(mesh_, gridCell(mesh_, area, options.shortest_mfp));
+    if (options.regions || options.grid_alone)
+        grid_ = buildTriangleGrid(mesh_, gridCell(mesh_, area, options.shortest_mfp));
     const auto end = [&](float origin, std::int32_t cells) {
         return origin + static_cast<float>(cells) * regions_.cell_mm;
     };
@@ -225,11 +230,7 @@ bool MeshBody::occluded(const SurfacePoint& point, Vec3 wi, double distance) con
 std::optional<SurfacePoint> MeshBody::seen(Vec3 origin, Vec3 direction) const {
     const auto hit = rays_.intersect({toFloat(origin), toFloat(direction)});
     if (!hit) return {};
-    const auto& [a, b, c] = mesh_.triangles[hit->triangle];
-    const Vec3 p = toDouble(mesh_.positions[a]);
-    return SurfacePoint{p + static_cast<double>(hit->u) * (toDouble(mesh_.positions[b]) - p) +
-                            static_cast<double>(hit->v) * (toDouble(mesh_.positions[c]) - p),
-                        toDouble(hit->normal)};
+    return SurfacePoint{positionOf(*hit), toDouble(hit->normal)};
 }
 
 std::optional<double> MeshBody::wayOut(Vec3 position, Vec3 wi, double distance) const {
@@ -257,30 +258,44 @@ std::optional<RayHit> MeshBody::leaving(const Ray& flight, const RayHit& entered
     return {};
 }
 
-void MeshBody::cross(std::span<const Ray> flights, std::span<Crossing> crossings) const {
+void MeshBody::cross(std::span<const Ray> flights, std::span<Crossing> crossings, bool cells) const {
     assert(flights.size() == crossings.size());
     constexpr std::size_t most = 64;
     RayHit hits[most];
+    Vec3 positions[most];
     for (std::size_t first = 0; first < flights.size(); first += most) {
         const std::size_t count = std::min(most, flights.size() - first);
         const std::span<const Ray> some = flights.subspan(first, count);
-        if (!grid_.blocks.empty() && std::ranges::all_of(some, [&](const Ray& f) { return grid_.holds(f); })) {
-            grid_.intersect(some, {hits, count});
-            for (const RayHit& hit : std::span(hits, count))
-                if (std::isfinite(hit.t)) hwy::Prefetch(&mesh_.triangles[hit.triangle]);
+        if (!grid_.blocks.empty()) {
+            grid_.intersect(some, {hits, count}, {positions, count});
         } else {
             rays_.intersect(some, {hits, count}, false);
+            for (const RayHit& hit : std::span(hits, count))
+                if (std::isfinite(hit.t)) hwy::Prefetch(&mesh_.triangles[hit.triangle]);
+            for (std::size_t i = 0; i < count; ++i)
+                if (std::isfinite(hits[i].t)) positions[i] = positionOf(hits[i]);
         }
-        for (std::size_t i = 0; i < count; ++i)
-            crossings[first + i].what = cross(flights[first + i], hits[i], crossings[first + i]);
+        for (std::size_t i = 0; i < count; ++i) {
+            Crossing& crossing = crossings[first + i];
+            crossing.what = cross(flights[first + i], hits[i], positions[i], crossing);
+            if (cells && crossing.what == Crossing::What::surface) crossing.cell = cellOf(crossing);
+        }
     }
 }
 
-Crossing::What MeshBody::cross(const Ray& flight, RayHit hit, Crossing& crossing) const {
+Vec3 MeshBody::positionOf(const RayHit& hit) const {
+    const auto& [a, b, c] = mesh_.triangles[hit.triangle];
+    const Vec3 p = toDouble(mesh_.positions[a]);
+    return p + static_cast<double>(hit.u) * (toDouble(mesh_.positions[b]) - p) +
+           static_cast<double>(hit.v) * (toDouble(mesh_.positions[c]) - p);
+}
+
+Crossing::What MeshBody::cross(const Ray& flight, RayHit hit, Vec3 at, Crossing& crossing) const {
     if (std::isfinite(hit.t) && !(dot(toDouble(flight.direction), toDouble(hit.normal)) > 0)) {
         const std::optional<RayHit> left = leaving(flight, hit);
         if (!left) return Crossing::What::lost;
         hit = *left;
+        if (std::isfinite(hit.t)) at = positionOf(hit);
     }
     if (!std::isfinite(hit.t)) {
         const auto beyond = [&](float from, float along, float low, float high) {
@@ -293,14 +308,11 @@ Crossing::What MeshBody::cross(const Ray& flight, RayHit hit, Crossing& crossing
             return Crossing::What::lost;
         return Crossing::What::none;
     }
-    const auto& [a, b, c] = mesh_.triangles[hit.triangle];
-    const Vec3 p = toDouble(mesh_.positions[a]);
-    const Vec3 at = p + static_cast<double>(hit.u) * (toDouble(mesh_.positions[b]) - p) +
-                    static_cast<double>(hit.v) * (toDouble(mesh_.positions[c]) - p);
     crossing.normal = toDouble(hit.normal);
     crossing.position = toFloat(at);
     crossing.inside = toFloat(at - nudge_ * crossing.normal);
-    crossing.cell = cells_.at(hit.triangle, hit.u, hit.v);
+    crossing.triangle = hit.triangle;
+    crossing.u = hit.u, crossing.v = hit.v;
     return Crossing::What::surface;
 }
 

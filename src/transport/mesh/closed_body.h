@@ -26,10 +26,12 @@ struct Crossing {
     enum class What : std::uint8_t { none, surface, lost };
 
     What what = What::none;  ///< lost: rounding has put the flight on the wrong side of the surface
-    std::uint32_t cell = 0;  ///< of the surface
-    Vec3f position;          ///< on the surface; for `surface` alone, like what follows
+    std::uint32_t cell = 0;  ///< of the surface; for `surface` alone, like what follows
+    Vec3f position;          ///< on the surface
     Vec3f inside;  ///< the same, moved inwards by as much as it may be rounded: from where a reflection goes on
     Vec3 normal;   ///< outward, unit
+    std::uint32_t triangle = 0;  ///< of a mesh
+    float u = 0, v = 0;          ///< barycentric, as RayHit has them
 };
 
 /// A sphere about the origin.
@@ -56,8 +58,10 @@ public:
     /// How far it is to the surface from inside towards wi (unit), mm; nothing when light from there, `distance` away,
     /// is hidden by another part of the body.
     std::optional<double> wayOut(Vec3 position, Vec3 wi, double distance) const;
-    /// Flights that may have left: where from t 0 to t_max they cross from inside.
-    void cross(std::span<const Ray> flights, std::span<Crossing> crossings) const;
+    /// Flights that may have left: where from t_min to t_max they cross from inside. Without `cells` theirs are left to
+    /// cellOf().
+    void cross(std::span<const Ray> flights, std::span<Crossing> crossings, bool cells = true) const;
+    std::uint32_t cellOf(const Crossing& crossing) const { return cells_.at(crossing.normal); }
 
 private:
     double radius_;
@@ -68,6 +72,7 @@ struct MeshBodyOptions {
     double cell_area_mm2 = 0;  ///< of the receivers; 0: one per triangle
     double shortest_mfp = 1;   ///< mm, of the walks to come: chooses the grid of safe regions
     bool regions = true;       ///< false: a ray of Embree for each flight; slow, and what walks are tested against
+    bool grid_alone = false;   ///< without regions: each flight is tested by the grid instead, to measure that
     int threads = 0;
 };
 
@@ -94,10 +99,15 @@ public:
     bool occluded(const SurfacePoint& point, Vec3 wi, double distance) const;
     std::optional<SurfacePoint> seen(Vec3 origin, Vec3 direction) const;
     std::optional<double> wayOut(Vec3 position, Vec3 wi, double distance) const;
-    void cross(std::span<const Ray> flights, std::span<Crossing> crossings) const;
+    void cross(std::span<const Ray> flights, std::span<Crossing> crossings, bool cells = true) const;
+    std::uint32_t cellOf(const Crossing& crossing) const {
+        return cells_.at(crossing.triangle, crossing.u, crossing.v);
+    }
 
 private:
-    Crossing::What cross(const Ray& flight, RayHit hit, Crossing& crossing) const;
+    Vec3 positionOf(const RayHit& hit) const;
+    /// What becomes of a flight whose nearest hit is at `at`.
+    Crossing::What cross(const Ray& flight, RayHit hit, Vec3 at, Crossing& crossing) const;
     std::optional<RayHit> leaving(const Ray& flight, const RayHit& entered) const;
 
     Mesh mesh_;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/parallel.h"
+#include "transport/mesh/facet_geometry.h"
 
 namespace searchlight {
 
@@ -41,11 +42,6 @@ Range rangeOf(double low, double high, double origin, double cell, double reach,
     };
     return {clamped(std::floor((low - reach - origin) / cell - 0.5)),
             clamped(std::ceil((high + reach - origin) / cell))};
-}
-
-std::array<Vec3, 3> cornersOf(const Mesh& mesh, std::size_t triangle) {
-    const auto& [a, b, c] = mesh.triangles[triangle];
-    return {toDouble(mesh.positions[a]), toDouble(mesh.positions[b]), toDouble(mesh.positions[c])};
 }
 
 // Distance from each cell's centre to the surface where that is below `reach`, `reach` elsewhere.

@@ -55,6 +55,7 @@ auto EntrySource<Body>::draw() -> Candidate {
     candidate.wi = light.wi;
     candidate.distance = light.distance;
     candidate.shadowed = true;
+    candidate.single = light.pdf == 0;
     return candidate;
 }
 
@@ -80,6 +81,7 @@ bool EntrySource<Body>::next(Entry& entry) {
         entry.direction = toFloat(normalize(in));
         entry.position = body_.below(point);
         entry.weight = static_cast<float>(weight);
+        entry.single = candidate.single;
         return true;
     }
     return false;

@@ -5,9 +5,9 @@
 #include <variant>
 #include <vector>
 
+#include "base/random.h"
 #include "base/vec.h"
 #include "light/light_sampler.h"
-#include "transport/walk/random.h"
 
 namespace searchlight {
 
@@ -30,6 +30,7 @@ struct Entry {
     Vec3f direction;        ///< refracted, unit
     float weight = 0;       ///< of light: in multiples of EntryOptions::whole
     std::uint32_t tag = 0;  ///< for the source's own use, when the walk leaves
+    bool single = false;    ///< light of a LightSampler that comes from a single direction
 };
 
 /// A value for a cell of the surface, or for a pixel.
@@ -50,6 +51,16 @@ public:
     /// A walk of this tag and weight crosses the surface, coming from inside in this unit direction.
     virtual void leave(std::uint32_t tag, float weight, Vec3 direction, const Crossing& crossing,
                        std::vector<CellExit>& exits) = 0;
+
+    /// 0, or a divisor n of 64: of n collisions of a walk that do not absorb it one, on average, calls collide().
+    virtual int asksOneOf() const { return 0; }
+    /// `direction` (unit) is that in which the walk came to the collision.
+    virtual void collide(std::uint32_t, float /*weight*/, Vec3f /*position*/, Vec3f /*direction*/) {}
+    /// Like leave(), where the last flight began at a collision: at `start`.
+    virtual void leaveScattered(std::uint32_t tag, float weight, Vec3f /*start*/, Vec3 direction,
+                                const Crossing& crossing, std::vector<CellExit>& exits) {
+        leave(tag, weight, direction, crossing, exits);
+    }
 };
 
 /// Flux that candidates carried, in multiples of EntryOptions::whole.
@@ -85,10 +96,10 @@ public:
     struct Candidate {
         double weight = 0;  ///< flux through the surface's outside, before roulette,
                             ///< shadow and Fresnel
-        Entry entry;        ///< without its direction
         Vec3 normal, wi;
         double distance = 0;
         bool shadowed = false;  ///< may be
+        bool single = false;    ///< as in Entry
         Vec3 position;
     };
     /// The next candidate, unweighted by any roulette: for pilots.

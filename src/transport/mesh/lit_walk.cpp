@@ -22,6 +22,13 @@ Vec3 scattered(Vec3 d, double g, SplitMix64& random) {
     return normalize(ring * std::cos(turn) * tangent + ring * std::sin(turn) * bitangent + c * d);
 }
 
+// From one collision, or the surface, to the next collision.
+struct Flight {
+    Vec3f from, end;
+    Vec3 direction;
+    double length_mm = 0;
+};
+
 // Radiance that a collision scatters towards where a walk came from.
 template <class Body>
 class MatchedLights {
@@ -30,8 +37,8 @@ public:
         : body_(body), medium_(medium), lights_(lights), channel_(channel) {}
 
     // From one light and direction of all.
-    double at(Vec3f place, Vec3 direction, SplitMix64& random, std::uint64_t& rays) const {
-        const Vec3 position = toDouble(place);
+    double at(const Flight& flight, SplitMix64& random, std::uint64_t& rays) const {
+        const Vec3 position = toDouble(flight.end);
         const double u_light = random.uniform(), u = random.uniform(), v = random.uniform();
         const LightSample light = lights_.sample(position, u_light, u, v);
         const double irradiance = light.irradiance_over_pdf[channel_];
@@ -40,8 +47,9 @@ public:
         ++rays;
         if (!out) return 0;
         return irradiance * std::exp(-medium_.sigma_t * *out) *
-               Physics<double>::henyeyGreenstein(dot(direction, light.wi), medium_.g);
+               Physics<double>::henyeyGreenstein(dot(flight.direction, light.wi), medium_.g);
     }
+    double along(Vec3f, Vec3, SplitMix64&) const { return 0; }
     bool collects(bool scatters) const { return !scatters; }
 
 private:
@@ -51,21 +59,26 @@ private:
     int channel_;
 };
 
-class BeamLights {
+class SphereLights {
 public:
-    explicit BeamLights(const FacetBeams& beams) : beams_(beams) {}
+    explicit SphereLights(const SphereBeams& beams) : beams_(beams) {}
 
-    double at(Vec3f position, Vec3 direction, SplitMix64& random, std::uint64_t& rays) const {
-        return beams_.scattered(position, direction, random, rays);
+    double at(const Flight& flight, SplitMix64& random, std::uint64_t&) const {
+        return beams_.atCollision(flight.from, flight.direction, flight.length_mm, random);
+    }
+    double along(Vec3f from, Vec3 direction, SplitMix64& random) const {
+        return beams_.alongFlight(from, direction, random);
     }
     bool collects(bool) const { return true; }
 
 private:
-    const FacetBeams& beams_;
+    const SphereBeams& beams_;
 };
 
 // Whether a flight surely stays inside, so that no ray is asked.
-bool staysInside(const Ball&, Vec3f, Vec3f) { return false; }
+bool staysInside(const Ball& ball, Vec3f, Vec3f to) {
+    return length(toDouble(to)) < ball.radius() * (1 - 1e-6);  // convex, and float
+}
 bool staysInside(const MeshBody& mesh, Vec3f from, Vec3f to) { return mesh.regions().safe(from, to); }
 
 template <class Body, class Lights>
@@ -86,6 +99,7 @@ private:
         Vec3 direction = toDouble(entry.direction);
         double collected = 0;
         for (bool scatters = false;;) {
+            collected += lights_.along(position, direction, random_);
             const double length = -std::log(random_.uniform()) / medium_.sigma_t;
             const Vec3f end = toFloat(toDouble(position) + length * direction);
             const Crossing crossing = cross(position, end);
@@ -106,8 +120,8 @@ private:
             }
             ++chunk_.collisions;
             if (random_.uniform() < medium_.absorbed) break;
+            collected += lights_.at({position, end, direction, length}, random_, chunk_.rays);
             position = end;
-            collected += lights_.at(position, direction, random_, chunk_.rays);
             direction = scattered(direction, medium_.g, random_);
             scatters = true;
         }
@@ -150,9 +164,9 @@ BodyChunk walkMatchedChunk(const MeshBody& mesh, const BodyMedium& medium, const
     return walkMatched(mesh, medium, lights, channel, source, random);
 }
 
-BodyChunk walkBeamsChunk(const MeshBody& mesh, const BodyMedium& medium, const FacetBeams& beams,
-                         CameraSource<MeshBody>& source, SplitMix64 random) {
-    return LitWalker<MeshBody, BeamLights>(mesh, medium, BeamLights(beams), source, random).run();
+BodyChunk walkBeamsChunk(const Ball& ball, const BodyMedium& medium, const SphereBeams& beams,
+                         CameraSource<Ball>& source, SplitMix64 random) {
+    return LitWalker<Ball, SphereLights>(ball, medium, SphereLights(beams), source, random).run();
 }
 
 }  // namespace searchlight

@@ -5,7 +5,7 @@
 #include "transport/mesh/body_walk.h"
 #include "transport/mesh/camera_source.h"
 #include "transport/mesh/closed_body.h"
-#include "transport/mesh/facet_beams.h"
+#include "transport/mesh/sphere_beams.h"
 
 namespace searchlight {
 
@@ -16,9 +16,9 @@ BodyChunk walkMatchedChunk(const Ball& ball, const BodyMedium& medium, const Lig
 BodyChunk walkMatchedChunk(const MeshBody& mesh, const BodyMedium& medium, const LightSampler& lights, int channel,
                            CameraSource<MeshBody>& source, SplitMix64 random);
 
-/// Through a refractive surface collisions sum the beams of single directions and points; walks that leave collect from
-/// lights with an extent.
-BodyChunk walkBeamsChunk(const MeshBody& mesh, const BodyMedium& medium, const FacetBeams& beams,
-                         CameraSource<MeshBody>& source, SplitMix64 random);
+/// In a smooth refractive sphere each flight asks the rays of single directions and points, which is what keeps
+/// caustics from being seen; walks that leave collect from lights with an extent.
+BodyChunk walkBeamsChunk(const Ball& ball, const BodyMedium& medium, const SphereBeams& beams,
+                         CameraSource<Ball>& source, SplitMix64 random);
 
 }  // namespace searchlight

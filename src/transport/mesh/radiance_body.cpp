@@ -9,9 +9,11 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "transport/mesh/beam_source.h"
 #include "transport/mesh/body_walk.h"
 #include "transport/mesh/facet_beams.h"
 #include "transport/mesh/lit_walk.h"
+#include "transport/mesh/sphere_beams.h"
 #include "transport/walk/chunks.h"
 
 namespace searchlight {
@@ -25,14 +27,15 @@ constexpr double kMostLost = 1e-4;  // of all walks, as in reference_body.cpp
 // Sums of a job; after the counts the values of each pixel, and their squares.
 enum Sum { lost, rays, pixels };
 
-// Whether light comes through a refractive surface from where no walk meets it.
+// Whether light comes through a refractive surface from where no walk meets it, or few do, where there are beams of
+// that.
+template <class Beams>
 bool needsBeams(const Illumination& light, double eta) {
     if (std::holds_alternative<PencilLight>(light)) throw inputError("no camera sees light from a pencil beam");
     const auto* const lights = std::get_if<const LightSampler*>(&light);
-    return lights && eta != 1 && (*lights)->singular();
+    return lights && eta != 1 && ((*lights)->singular() || (std::is_same_v<Beams, FacetBeams> && (*lights)->narrow()));
 }
 
-template <class Body>
 BodyRadiance resultOf(const ChunkedResult& walked, const CameraRays& camera) {
     BodyRadiance r;
     r.walks = walked.walks;
@@ -58,14 +61,10 @@ BodyRadiance resultOf(const ChunkedResult& walked, const CameraRays& camera) {
     return r;
 }
 
-template <class Body>
+template <class Beams, class Body>
 BodyRadiance walkAny(const Body& body, const Medium& medium, int channel, const Illumination& light,
                      const CameraRays& camera, const RadianceOptions& options, Observer& observer) {
     checkMedium(medium);
-    const bool beams_wanted = needsBeams(light, medium.eta);
-    if (beams_wanted && std::is_same_v<Body, Ball>)
-        throw inputError("light from a single direction or point is not followed through a smooth refractive sphere",
-                         "a mesh of a sphere, through whose facets it is; or give the sun a disc (--sun-angle 10)");
     if (options.walks_per_pixel == 0) throw inputError("a reference needs at least one walk per pixel");
     if (!medium.scatters(channel)) throw inputError("the medium does not scatter in this channel");
     const double sigma_t = medium.sigmaT()[channel];
@@ -79,9 +78,8 @@ BodyRadiance walkAny(const Body& body, const Medium& medium, int channel, const 
     if (options.large_steps) walk.ways = waysFor(job.plan.size);
     job.threads = options.threads;
     job.control = options.control;
-    std::optional<FacetBeams> beams;
-    if constexpr (std::is_same_v<Body, MeshBody>)
-        if (beams_wanted) beams.emplace(body, walk, **lights, channel);
+    std::optional<Beams> beams;
+    if (needsBeams<Beams>(light, medium.eta)) beams.emplace(body, walk, **lights, channel);
     const ChunkedResult walked = walkChunks(
         job, {BatchRatios(pixels + 2 * camera.pixels())}, BodyChunk(),
         [&](std::uint64_t chunk, std::uint64_t count, BodyChunk& tally) {
@@ -89,13 +87,9 @@ BodyRadiance walkAny(const Body& body, const Medium& medium, int channel, const 
             CameraSource<Body> source(body, camera, light, channel, medium.eta, chunk * job.plan.size, count,
                                       SplitMix64(seeds.next()));
             const SplitMix64 random(seeds.next());
-            if constexpr (std::is_same_v<Body, MeshBody>)
-                if (beams) {
-                    tally = walkBeamsChunk(body, walk, *beams, source, random);
-                    return tally.collisions;
-                }
-            tally = lights && medium.eta == 1 ? walkMatchedChunk(body, walk, **lights, channel, source, random)
-                                              : walkBodyChunk(body, walk, source, random);
+            tally = beams                       ? walkBeamsChunk(body, walk, *beams, source, random)
+                    : lights && medium.eta == 1 ? walkMatchedChunk(body, walk, **lights, channel, source, random)
+                                                : walkBodyChunk(body, walk, source, random);
             return tally.collisions;
         },
         [&](const BodyChunk& chunk, std::uint64_t count, std::vector<BatchRatios>& to) {
@@ -110,8 +104,9 @@ BodyRadiance walkAny(const Body& body, const Medium& medium, int channel, const 
             to[0].add(values, static_cast<double>(count));
         },
         observer);
-    BodyRadiance result = resultOf<Body>(walked, camera);
-    if (beams) result.mirrored = beams->mirrored();
+    BodyRadiance result = resultOf(walked, camera);
+    if constexpr (std::is_same_v<Beams, FacetBeams>)
+        if (beams) result.mirrored = beams->mirrored(), result.orders = beams->orders();
     result.threads = options.threads > 0 ? options.threads : hardwareThreads();
     if (static_cast<double>(result.lost) > kMostLost * static_cast<double>(result.walks) + 3)
         throw inputError(
@@ -124,12 +119,12 @@ BodyRadiance walkAny(const Body& body, const Medium& medium, int channel, const 
 
 BodyRadiance walkRadiance(const Ball& body, const Medium& medium, int channel, const Illumination& light,
                           const CameraRays& camera, const RadianceOptions& options, Observer& observer) {
-    return walkAny(body, medium, channel, light, camera, options, observer);
+    return walkAny<SphereBeams>(body, medium, channel, light, camera, options, observer);
 }
 
 BodyRadiance walkRadiance(const MeshBody& body, const Medium& medium, int channel, const Illumination& light,
                           const CameraRays& camera, const RadianceOptions& options, Observer& observer) {
-    return walkAny(body, medium, channel, light, camera, options, observer);
+    return walkAny<FacetBeams>(body, medium, channel, light, camera, options, observer);
 }
 
 }  // namespace searchlight

@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "base/random.h"
 #include "geometry/vertex_normals.h"
-#include "transport/walk/random.h"
 
 namespace searchlight {
 

@@ -6,6 +6,9 @@
 #include <limits>
 #include <utility>
 
+#include "geometry/vertex_normals.h"
+#include "transport/mesh/facet_geometry.h"
+
 namespace searchlight {
 
 namespace {
@@ -13,6 +16,7 @@ namespace {
 // Of a cell, that triangles are looked for around it: positions in the grid are rounded to 1e-5 of a cell.
 constexpr double kMargin = 1e-3;
 constexpr double kMostAlong = 256;
+constexpr double kNormal = 511;  // length of a normal of three components of 10 bits, about
 
 // Which cells a triangle touches: planes and edges of [SchwarzSeidel2010], in units of cells.
 class Touch {
@@ -57,23 +61,36 @@ private:
     std::vector<Edge> edges_;
 };
 
-}  // namespace
-
-bool TriangleGrid::holds(const Ray& flight) const {
-    const auto within = [this](float from, float along, float low, std::int32_t n) {
-        const float high = low + static_cast<float>(n) * cell_mm, end = from + along;
-        return from > low && from < high && end > low && end < high;
-    };
-    const Vec3f d{flight.t_max * flight.direction.x, flight.t_max * flight.direction.y,
-                  flight.t_max * flight.direction.z};
-    return within(flight.origin.x, d.x, origin.x, nx) && within(flight.origin.y, d.y, origin.y, ny) &&
-           within(flight.origin.z, d.z, origin.z, nz);
+// The least of n . p over what of a triangle lies in a cube [Sutherland1974]; over all of it when nothing does.
+double lowestInside(const std::array<Vec3, 3>& triangle, Vec3 n, Vec3 middle, double half) {
+    std::array<Vec3, 9> polygon, cut;  // each side of the cube adds a corner at most
+    std::size_t corners = 3;
+    std::ranges::copy(triangle, polygon.begin());
+    for (double Vec3::*axis : {&Vec3::x, &Vec3::y, &Vec3::z})
+        for (const double side : {-1.0, 1.0}) {
+            const auto inside = [&](const Vec3& p) { return half - side * (p.*axis - middle.*axis); };
+            std::size_t left = 0;
+            for (std::size_t i = 0; i < corners; ++i) {
+                const Vec3 &p = polygon[i], &q = polygon[(i + 1) % corners];
+                const double a = inside(p), b = inside(q);
+                if (a >= 0) cut[left++] = p;
+                if ((a >= 0) != (b >= 0)) cut[left++] = p + (a / (a - b)) * (q - p);
+            }
+            polygon = cut;
+            corners = left;
+            if (corners == 0) return std::min({dot(n, triangle[0]), dot(n, triangle[1]), dot(n, triangle[2])});
+        }
+    double lowest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < corners; ++i) lowest = std::min(lowest, dot(n, polygon[i]));
+    return lowest;
 }
+
+}  // namespace
 
 double gridCell(const Mesh& mesh, double area_mm2, double mfp_mm) {
     // Measured on scanned meshes (docs/benchmarks.md): finer cells hold copies of more triangles than the cache does.
     const double triangle = std::sqrt(area_mm2 / static_cast<double>(mesh.triangles.size()));
-    return std::max(1.7 * triangle, 0.5 * mfp_mm);
+    return std::max(1.4 * triangle, 0.5 * mfp_mm);
 }
 
 TriangleGrid buildTriangleGrid(const Mesh& mesh, double cell_mm) {
@@ -100,6 +117,14 @@ TriangleGrid buildTriangleGrid(const Mesh& mesh, double cell_mm) {
         const auto brick = (static_cast<std::size_t>(z >> 2) * (grid.ny >> 2) + (y >> 2)) * (grid.nx >> 2) + (x >> 2);
         return brick << 6 | static_cast<std::size_t>((z & 3) << 4 | (y & 3) << 2 | (x & 3));
     };
+    const auto cellAt = [&grid](std::size_t index) {
+        const std::size_t bricks_x = static_cast<std::size_t>(grid.nx >> 2),
+                          bricks_y = static_cast<std::size_t>(grid.ny >> 2);
+        const std::size_t brick = index >> 6, rows = brick / bricks_x;
+        return std::array{static_cast<double>(brick % bricks_x << 2 | (index & 3)),
+                          static_cast<double>(rows % bricks_y << 2 | (index >> 2 & 3)),
+                          static_cast<double>(rows / bricks_y << 2 | (index >> 4 & 3))};
+    };
     const auto forEachCell = [&](std::size_t t, const auto& visit) {
         std::array<Vec3, 3> corners;
         Vec3 least{infinity, infinity, infinity}, most{-infinity, -infinity, -infinity};
@@ -124,10 +149,10 @@ TriangleGrid buildTriangleGrid(const Mesh& mesh, double cell_mm) {
     std::size_t blocks = 0;
     for (std::size_t at = 0; at < count.size(); ++at) {
         TriangleGrid::Brick& brick = grid.bricks[at / 64];
-        if (at % 64 == 0) brick.begin = static_cast<std::uint32_t>(grid.first.size());
+        if (at % 64 == 0) brick.begin = static_cast<std::uint32_t>(grid.cells.size());
         if (count[at] == 0) continue;
         brick.full |= std::uint64_t{1} << at % 64;
-        grid.first.push_back(static_cast<std::uint32_t>(blocks));
+        grid.cells.push_back({static_cast<std::uint32_t>(blocks)});
         blocks += (count[at] + TriangleGrid::kBlock - 1) / TriangleGrid::kBlock;
     }
     grid.blocks.resize(blocks);
@@ -137,7 +162,7 @@ TriangleGrid buildTriangleGrid(const Mesh& mesh, double cell_mm) {
             const std::uint32_t place = placed[at]++;
             const bool last = placed[at] == count[at];
             TriangleGrid::Block& block =
-                grid.blocks[grid.first[grid.bricks[at / 64].placeOf(at % 64)] + place / TriangleGrid::kBlock];
+                grid.blocks[grid.cells[grid.bricks[at / 64].placeOf(at % 64)].block + place / TriangleGrid::kBlock];
             // The last triangle fills the rest of its block: met twice, it is still one hit.
             const std::size_t begin = place % TriangleGrid::kBlock, end = last ? TriangleGrid::kBlock : begin + 1;
             for (std::size_t i = begin; i < end; ++i) {
@@ -150,6 +175,29 @@ TriangleGrid buildTriangleGrid(const Mesh& mesh, double cell_mm) {
                 }
             }
             if (last) block.triangles[0] |= TriangleGrid::kLast;
+        });
+    // A plane for each cell, below which a flight through it meets nothing.
+    std::vector<Vec3> normals(grid.cells.size());
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+        forEachCell(t, [&](std::size_t at) {
+            Vec3& normal = normals[grid.bricks[at / 64].placeOf(at % 64)];
+            normal = normal + triangleNormal(mesh, t);
+        });
+    for (std::size_t i = 0; i < normals.size(); ++i) {
+        const Vec3 n = length(normals[i]) > 0 ? normalize(normals[i]) : Vec3{0, 0, 1};
+        normals[i] = {std::round(kNormal * n.x), std::round(kNormal * n.y), std::round(kNormal * n.z)};
+        const auto bits = [](double x) { return static_cast<std::uint32_t>(static_cast<std::int32_t>(x)) & 0x3FF; };
+        grid.cells[i].normal = bits(normals[i].x) << 22 | bits(normals[i].y) << 12 | bits(normals[i].z) << 2;
+        grid.cells[i].least = std::numeric_limits<float>::max();
+    }
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+        forEachCell(t, [&](std::size_t at) {
+            const std::size_t place = grid.bricks[at / 64].placeOf(at % 64);
+            const auto [x, y, z] = cellAt(at);
+            const Vec3 middle = origin + cell * Vec3{x + 0.5, y + 0.5, z + 0.5};
+            const double least = lowestInside(cornersOf(mesh, t), normals[place], middle, (0.5 + 2 * kMargin) * cell) -
+                                 kNormal * kMargin * cell;
+            grid.cells[place].least = std::min(grid.cells[place].least, static_cast<float>(least));
         });
     return grid;
 }

@@ -24,12 +24,19 @@ struct TriangleGrid {
         std::uint32_t triangles[kBlock];  ///< kLast is set in the first when the cell has no further block
     };
 
+    /// A cell that holds triangles. What they are inside the cell lies where normal . p (mm) is at least `least`.
+    struct alignas(16) Cell {
+        std::uint32_t block = 0;   ///< the first
+        std::uint32_t normal = 0;  ///< whole numbers x, y, z of 10 bits, from the highest
+        float least = 0;
+    };
+
     /// 4 x 4 x 4 cells: most of them are empty, and walks ask for cells all over the mesh.
     struct alignas(16) Brick {
         std::uint64_t full = 0;   ///< a bit per cell that holds triangles; x runs fastest
-        std::uint32_t begin = 0;  ///< of those: the first one's place in `first`
+        std::uint32_t begin = 0;  ///< of those: the first one's place in `cells`
 
-        /// The place in `first` of a cell that holds triangles.
+        /// The place in `cells` of a cell that holds triangles.
         std::size_t placeOf(unsigned cell) const {
             return begin + static_cast<std::size_t>(std::popcount(full & ((std::uint64_t{1} << cell) - 1)));
         }
@@ -37,18 +44,15 @@ struct TriangleGrid {
 
     Vec3f origin;  ///< lowest corner, mm
     float cell_mm = 0;
-    std::int32_t nx = 0, ny = 0, nz = 0;                          ///< cells; a multiple of 4
-    std::vector<Brick, LargePages<Brick>> bricks;                 ///< x runs fastest
-    std::vector<std::uint32_t, LargePages<std::uint32_t>> first;  ///< block of each cell that holds triangles
+    std::int32_t nx = 0, ny = 0, nz = 0;           ///< cells; a multiple of 4
+    std::vector<Brick, LargePages<Brick>> bricks;  ///< x runs fastest
+    std::vector<Cell, LargePages<Cell>> cells;     ///< those that hold triangles, brick after brick
     std::vector<Block, LargePages<Block>> blocks;
 
-    /// Nearest hits with t in (0, t_max]: as RayScene has them; a miss has t = infinity. Both ends
-    /// of each flight lie inside the grid, and t_min is not read. Watertight at shared edges as RayScene is. Targets
-    /// with FMA agree bit for bit.
-    void intersect(std::span<const Ray> flights, std::span<RayHit> hits) const;
-
-    /// Whether both ends of a flight lie inside.
-    bool holds(const Ray& flight) const;
+    /// Nearest hits with t in (t_min, t_max]: as RayScene has them; a miss has t = infinity. Each flight is known to
+    /// meet nothing before t_min; it may begin anywhere, inside the grid it is fast. `positions` of the hits, mm.
+    /// Watertight at shared edges as RayScene is. Targets with FMA agree bit for bit.
+    void intersect(std::span<const Ray> flights, std::span<RayHit> hits, std::span<Vec3> positions) const;
 };
 
 /// Cells of that side, or of the longest extent's 256th part.

@@ -208,9 +208,9 @@ public:
         result.R = total(SlabLayout::R_scattered);
         result.R_single = total(SlabLayout::R_single);
         result.R_multiple = total(SlabLayout::R_multiple);
-        result.R_unscattered = total(SlabLayout::R_unscattered);
+        result.R_unscattered = unscattered(SlabLayout::R_unscattered);
         result.T = total(SlabLayout::T_scattered);
-        result.T_unscattered = total(SlabLayout::T_unscattered);
+        result.T_unscattered = unscattered(SlabLayout::T_unscattered);
         result.A = total(SlabLayout::A_total);
         for (std::size_t i = 0; i < problem_.layers.size(); ++i)
             result.A_layer.push_back(problem_.layers[i].sigma_a > 0 ? total(SlabLayout::A_layer, i) : Estimate{});
@@ -243,28 +243,23 @@ public:
     }
 
 private:
-    // Whether exits are foreseen there, with weights far below 1.
-    bool foreseen(std::size_t slot) const {
-        return best_ != nullptr && (slot <= layout_.first(SlabLayout::A_total) ||
-                                    (slot >= layout_.first(SlabLayout::R_r) && slot < layout_.first(SlabLayout::R_a)));
-    }
-
     // Per unit incident flux. The scatter of batches without an event would be 0; one event is the least that can be
     // said.
     Estimate flux(std::size_t slot, double one_event) const {
         if (walks_ == 0) return {};
         Estimate e = sums_.estimate(slot, walks_);
         double least = one_event / static_cast<double>(walks_);
-        if (foreseen(slot))
+        if (best_ != nullptr && best_->worthwhile)
             // Where less than a thousandth of an exit was foreseen, what leaves may come by ways that no walk took.
             least = e.mean < 1e-3 * least ? least : 0;
-        else if (best_ != nullptr)
-            least /= best_->beside;
         e.standard_error = std::max(e.standard_error, least);
         return {transmitted_ * e.mean, transmitted_ * e.standard_error, e.count};
     }
 
     Estimate total(SlabLayout::Run run, std::size_t index = 0) const { return flux(layout_.first(run) + index, 1); }
+
+    // The best estimator knows it exactly.
+    Estimate unscattered(SlabLayout::Run run) const { return flux(layout_.first(run), best_ ? 0 : 1); }
 
     static void push(SlabSeries& series, const Estimate& e, double measure) {
         series.mean.push_back(e.mean / measure);
@@ -373,13 +368,10 @@ SlabResult walkSlab(const SlabProblem& problem, const SlabOptions& options, Obse
 
     const SlabWalk walk = walkOf(problem, entry);
     std::optional<SlabBestPlan> best;
-    if (options.estimator == SlabEstimator::best && !options.gl && !options.maps && options.grid == 0 &&
-        bestServes(walk)) {
+    if (options.estimator == SlabEstimator::best && !options.gl) {
         best.emplace(walk, options.edges_mm, layout);
-        if (best->worthwhile)
-            result.estimator = SlabEstimator::best;
-        else
-            best.reset();
+        result.estimator = SlabEstimator::best;
+        result.foresees = best->worthwhile;
     }
     ChunkedWalk job;
     job.plan = planChunks(options.walks, options.control.until_error > 0);

@@ -38,7 +38,8 @@ struct SlabLayer {
 /// As Estimator of the half-space.
 enum class SlabEstimator {
     analogue,
-    best,  ///< R(r) and T(r) with less noise (slab_best.h); angles, layers and depths from analogue walks beside
+    best,  ///< R, T, A follow controls (slab_control.h); R(r), T(r) and angles come from walks that foresee
+           ///< (slab_best.h)
 };
 
 struct SlabProblem {
@@ -61,8 +62,8 @@ struct SlabOptions {
     int grid = 0;                  ///< cells per side of R(x, y) and T(x, y); 0: none
     double grid_extent_mm = 0;     ///< the square is [-extent, extent]^2
     int threads = 0;               ///< 0: all
-    /// Grids, maps, clear layers and phase functions that are tables are always walked by the analogue, and slabs of
-    /// which a pilot finds that it knows R(r) better.
+    /// On OpenGL always analogue. No walk foresees where there are grids, maps, clear layers or phase functions that
+    /// are tables, nor where a pilot finds that analogue walks know R(r) as well.
     SlabEstimator estimator = SlabEstimator::analogue;
     gl::Context* gl = nullptr;  ///< walk there, counting the collisions that absorb alone; null: on the CPU
     WalkControl control;        ///< until_error: of R, T and A, those above 0
@@ -95,6 +96,7 @@ struct SlabResult {
     SlabSeries R_xy, T_xy;     ///< 1/mm^2, scattered; row-major over y then x; empty without a grid
     std::vector<double> flux;  ///< mean per slot of slabLayout, for writers that need what the series leave out
     SlabEstimator estimator = SlabEstimator::analogue;  ///< that was used
+    bool foresees = false;                              ///< of the best one: other walks than analogue ones took part
     std::uint64_t walks = 0;
     std::uint64_t collisions = 0;
     double seconds = 0;  ///< wall time of walking

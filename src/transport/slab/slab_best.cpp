@@ -78,9 +78,13 @@ public:
           stride_(3 * slots_ | 1),
           histogram_(2 * sides * kCopies * stride_),
           flux_(3 * slots_),
+          angle_sums_(sides * plan.layout.angles() * kCopies),
+          angle_flux_(sides * plan.layout.angles()),
+          depth_sums_(plan.depths.slots.size() * kCopies),
+          depth_flux_(plan.depths.slots.size()),
           last_(static_cast<std::int32_t>(plan.walk.layers.size()) - 1),
           has_below_(!std::isinf(plan.walk.layers.back().thickness_mm)),
-          ways_{{plan.walk, true, seeds}, {plan.walk, false, seeds}} {
+          ways_{{plan.walk, true, plan.layout.angles(), seeds}, {plan.walk, false, plan.layout.angles(), seeds}} {
         for (std::size_t i = 0; i < plan.walk.layers.size(); ++i) {
             const SlabWalk::Layer& layer = plan.walk.layers[i];
             const auto add = [](std::vector<float>& list, double value) { list.push_back(static_cast<float>(value)); };
@@ -95,6 +99,10 @@ public:
             first_row_.push_back(plan.importance.layers[i].first_row);
             last_row_.push_back(plan.importance.layers[i].rows - 1);
             after_.push_back(plan.foresees[i] ? foreseen : uncounted);
+            depth_top_.push_back(plan.depths.layers[i].top);
+            depth_first_.push_back(plan.depths.layers[i].first);
+            depth_last_.push_back(plan.depths.layers[i].last);
+            depth_slot_.push_back(plan.depths.layers[i].slot);
         }
         std::memset(&lanes_, 0, sizeof lanes_);
         seed(lanes_, seeds);
@@ -103,7 +111,9 @@ public:
 
     SlabBestSums run() {
         SlabBestSums sums;
-        const std::size_t flush_steps = std::max(kFlushSteps, 2 * slots_);
+        // Depths are met by all.
+        const std::size_t flush_steps =
+            std::max(kFlushSteps, 2 * std::min({slots_, angle_flux_.size() / sides, depth_flux_.size()}));
         std::size_t steps = 0;
         while (const int alive = refill()) {
             sums.steps += static_cast<std::uint64_t>(alive);
@@ -114,7 +124,7 @@ public:
                 way_ = 0;
             }
             for (std::size_t at = 0; at < kLanes; at += hn::Lanes(Float())) advance(at);
-            if (exits_.count > 0) countExits(sums);
+            if (exits_.count > 0) countExits();
             if (split_ != 0) splitWalks();
             if (++steps == flush_steps) {
                 flush();
@@ -129,6 +139,10 @@ public:
         sums.single = run(0);
         sums.multiple = run(1);
         sums.transmitted = run(2);
+        const auto transmitted_a = angle_flux_.begin() + static_cast<std::ptrdiff_t>(plan_.layout.angles());
+        sums.reflected_a.assign(angle_flux_.begin(), transmitted_a);
+        sums.transmitted_a.assign(transmitted_a, angle_flux_.end());
+        sums.collided = depth_flux_;
         sums.collisions = collisions_;
         return sums;
     }
@@ -213,6 +227,7 @@ private:
         const FloatM crosses = hn::Or(hn::Lt(z, hn::Zero(d)), hn::Gt(z, of(thickness_, pack.layer)));
         const FloatM arrives = hn::Not(crosses);
         const hn::Mask<Int> arrives_i = hn::RebindMask(di, arrives);
+        countCollision(pack, z, arrives, at);
         pack.weight = hn::IfThenElse(arrives, hn::Mul(pack.weight, of(albedo_, pack.layer)), pack.weight);
         const IntV order = hn::Min(hn::Add(pack.order, hn::Set(di, 1)), hn::Set(di, kEndlessWalk));
         pack.order = hn::IfThenElse(arrives_i, order, pack.order);
@@ -237,6 +252,19 @@ private:
         collisions_ += hn::CountTrue(d, hn::And(arrives, hn::Gt(pack.weight, hn::Zero(d))));
         free_ |= bitsOf(hn::AndNot(lives, low), at);
         split_ |= bitsOf(hn::Gt(value, hn::Set(d, kSplit)), at);
+    }
+
+    // Of every collision but the first, which is known.
+    HWY_INLINE void countCollision(const SlabBestPack& pack, FloatV z, FloatM arrives, std::size_t at) {
+        const Float d;
+        const Int di;
+        const FloatM counts = hn::And(arrives, hn::RebindMask(d, hn::Gt(pack.order, hn::Zero(di))));
+        const FloatV place = hn::MulAdd(z, hn::Set(d, plan_.depths.per_mm), of(depth_top_, pack.layer));
+        // Of floats, so that the conversion stays defined.
+        const FloatV bin = hn::Min(hn::Max(place, of(depth_first_, pack.layer)), of(depth_last_, pack.layer));
+        const IntV slot = hn::Add(hn::ConvertTo(di, bin), of(depth_slot_, pack.layer));
+        addToLanes(depth_sums_.data(), at, hn::IfThenElseZero(hn::RebindMask(di, counts), slot),
+                   hn::IfThenElseZero(counts, pack.weight));
     }
 
     // Tallies what leaves on one side; `depth`: to the end of the layer there.
@@ -264,6 +292,13 @@ private:
             const FloatV g = of(g_, pack.layer);
             one = hn::Mul(leaves, henyeyGreensteinGain(g, hn::Add(along, across)));
             other = hn::Mul(leaves, henyeyGreensteinGain(g, hn::Sub(along, across)));
+        }
+        float* const angles = angle_sums_.data() + (kSide == up ? 0 : angle_sums_.size() / sides);
+        if constexpr (kLayered) {
+            addToLanes(angles, at, hn::GatherIndex(Int(), ways.angle.data(), index), hn::Add(one, other));
+        } else {
+            float* const lanes = angles + static_cast<std::size_t>(ways.angle[way]) * kCopies + at % kCopies;
+            hn::StoreU(hn::Add(hn::LoadU(d, lanes), hn::Add(one, other)), d, lanes);
         }
         deposit<2 * kSide>(pack, at, hn::Add(pack.x, dx), hn::Add(pack.y, dy), one);
         deposit<2 * kSide + 1>(pack, at, hn::Sub(pack.x, dx), hn::Sub(pack.y, dy), other);
@@ -313,6 +348,7 @@ private:
         if (!hn::AllFalse(d, counts)) {
             storeSet(pack.x, counts, d, exits_.x + exits_.count);
             storeSet(pack.y, counts, d, exits_.y + exits_.count);
+            storeSet(ray.cosine, counts, d, exits_.cosine + exits_.count);
             storeSet(hn::Sub(pack.weight, reflected), counts, d, exits_.weight + exits_.count);
             const hn::Mask<Int> counts_i = hn::RebindMask(di, counts);
             storeSet(pack.order, counts_i, di, exits_.order + exits_.count);
@@ -348,22 +384,24 @@ private:
     }
 
     // Exits that no collision had foreseen.
-    HWY_NOINLINE void countExits(SlabBestSums& sums) {
+    HWY_NOINLINE void countExits() {
         for (std::size_t i = 0; i < exits_.count; ++i) {
             const double weight = exits_.weight[i];
             const bool reflected = exits_.beyond[i] < 0;
-            if (exits_.order[i] == 0) {
-                (reflected ? sums.R_unscattered : sums.T_unscattered) += weight;
-                continue;
-            }
+            if (exits_.order[i] == 0) continue;  // known
             const double x = exits_.x[i], y = exits_.y[i];
             const std::size_t run = reflected ? (exits_.order[i] == 1 ? 0 : 1) : 2;
             flux_[run * slots_ + plan_.layout.row(x * x + y * y)] += weight;
+            angle_flux_[(reflected ? 0 : plan_.layout.angles()) + plan_.layout.angle(exits_.cosine[i])] += weight;
         }
         exits_.count = 0;
     }
 
-    HWY_NOINLINE void flush() { emptyCopies(histogram_, stride_, flux_.data(), flux_.size()); }
+    HWY_NOINLINE void flush() {
+        emptyCopies(histogram_, stride_, flux_.data(), flux_.size());
+        emptyLanes(angle_sums_, angle_flux_);
+        emptyLanes(depth_sums_, depth_flux_);
+    }
 
     HWY_NOINLINE void splitWalks() {
         for (std::uint64_t bits = split_; bits != 0; bits &= bits - 1) {
@@ -426,22 +464,26 @@ private:
     const SlabBestPlan& plan_;
     std::uint64_t waiting_;  // walks not yet started
     std::size_t slots_, stride_;
-    std::vector<float> histogram_;  // per way and lane: reflected once, more often, transmitted
-    std::vector<double> flux_;      // the same
-    std::int32_t last_;             // layer
+    std::vector<float> histogram_;   // per way and lane: reflected once, more often, transmitted
+    std::vector<double> flux_;       // the same
+    std::vector<float> angle_sums_;  // per side and angle: kCopies
+    std::vector<double> angle_flux_;
+    std::vector<float> depth_sums_;  // per slot of depth: kCopies
+    std::vector<double> depth_flux_;
+    std::int32_t last_;  // layer
     bool has_below_;
     SlabWays ways_[sides];
     std::size_t way_ = SlabWays::kCount - kLanes / kCopies;  // of the first lanes
     // Per layer.
-    std::vector<float> mfp_, thickness_, albedo_, g_, half_qq_, rows_per_mm_;
+    std::vector<float> mfp_, thickness_, albedo_, g_, half_qq_, rows_per_mm_, depth_top_, depth_first_, depth_last_;
     std::vector<float> eta_;  // downwards, upwards
-    std::vector<std::int32_t> first_row_, last_row_, after_;
+    std::vector<std::int32_t> first_row_, last_row_, after_, depth_slot_;
     std::uint64_t collisions_ = 0;
     std::uint64_t free_ = ~std::uint64_t{0}, split_ = 0;  // one bit a lane
     std::vector<SlabWaiting> bank_;
     SplitMix64 rare_;
     struct {
-        float x[kLanes + 16], y[kLanes + 16], weight[kLanes + 16];
+        float x[kLanes + 16], y[kLanes + 16], cosine[kLanes + 16], weight[kLanes + 16];
         std::int32_t order[kLanes + 16], beyond[kLanes + 16];
         std::size_t count = 0;
     } exits_;

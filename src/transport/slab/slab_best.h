@@ -1,32 +1,40 @@
 // The low-variance walk through plane layers: what half_space_best.h is to the half-space.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "base/random.h"
+#include "transport/slab/slab_control.h"
+#include "transport/slab/slab_depths.h"
 #include "transport/slab/slab_importance.h"
+#include "transport/slab/slab_pilot.h"
 #include "transport/slab/slab_single.h"
 #include "transport/slab/slab_tally.h"
 #include "transport/slab/slab_walk.h"
 #include "transport/walk/lane_bins.h"
-#include "transport/walk/random.h"
 
 namespace searchlight {
 
-/// What one chunk of these walks found, in sums over walks; without what SlabBestPlan::single holds.
+/// What one chunk of these walks found, in sums over walks; without what the plan knows beforehand.
 struct SlabBestSums {
-    std::vector<double> single, multiple;  ///< reflected, per radial slot
-    std::vector<double> transmitted;       ///< per radial slot
-    double R_unscattered = 0, T_unscattered = 0;
+    std::vector<double> single, multiple;            ///< reflected, per radial slot
+    std::vector<double> transmitted;                 ///< per radial slot
+    std::vector<double> reflected_a, transmitted_a;  ///< per angle
+    std::vector<double> collided;                    ///< weight that came to collisions, per slot of SlabDepths
     std::uint64_t collisions = 0;
     std::uint64_t steps = 0;  ///< to collisions and to interfaces
 };
 
-/// Whether these walks can serve the slab. A phase function that is a table is not known point by point; clear layers
-/// carry light far away, where an importance from diffusion does harm.
-bool bestServes(const SlabWalk& walk);
+/// What part of R and T each angle has, and what part of its layer each slot of depth, roughly: where walks that
+/// foresee find more in all than analogue walks with their controls, so much of it is taken back, as far as these know
+/// the whole better: each is times the part that the analogue walks have in the best mix of both.
+struct SlabShape {
+    std::vector<double> reflected_a, transmitted_a, collided;
+};
 
 /// What all chunks of a job share.
 struct SlabBestPlan {
@@ -35,17 +43,25 @@ struct SlabBestPlan {
 
     const SlabWalk& walk;
     const SlabLayout& layout;
+    SlabControl control;
+    SlabDepths depths;
+    SlabPilot pilot;
     LaneBins bins;
     SlabImportance importance;
     std::optional<SlabSingle> single;  ///< of a pencil at normal incidence; otherwise walks tally order 1, too
     std::vector<char> foresees;  ///< per layer: its collisions tally expected escapes; otherwise what leaves the slab
 
     bool absorbs = false;
-    bool worthwhile = false;  ///< a pilot found that R(r) is known better than by analogue walks in the same time
-    /// Analogue walks for each walk. They count angles and where light is absorbed, and have a part in the rest, which
-    /// the pilot chooses.
+    /// A pilot found that R(r) is known better than by analogue walks in the same time; otherwise these and their
+    /// controls are all.
+    bool worthwhile = false;
+    /// Analogue walks for each walk that foresees, and their part in each run.
     double beside = 0;
-    double part_totals = 0, part_R_r = 0, part_T_r = 0;
+    bool places = false;  ///< they have a part in R(r) and T(r); otherwise they know depths alone
+    std::array<double, SlabLayout::runs> part{};
+    /// Of what R, T, A and unscattered light lack of the whole: the parts that R, T and A get, 1 in sum.
+    std::array<double, 3> missing{};
+    SlabShape shape;
 };
 
 /// The walks with expected escape and importance alone.

@@ -11,7 +11,7 @@ namespace searchlight {
 
 namespace {
 
-// As in importance.h, measured there for the half-space. The total counts for more here: no other walks give it.
+// As in importance.h, measured there for the half-space. The total counts for more here, for angles and depths.
 constexpr double kFar = 0.4, kTotal = 0.1, kDepth = 0.25;
 
 // Lengths in reduced mean free paths of the layers' mean.

@@ -2,55 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
-#include "transport/half_space/quadrature.h"
 #include "transport/walk/fresnel.h"
+#include "transport/walk/quadrature.h"
 
 namespace searchlight {
 
 namespace {
-
-// The beam that has not met a scatterer, with all reflections between the interfaces.
-struct Unscattered {
-    std::vector<double> down, up;  // per layer: enters it at its top, at its bottom
-    double above = 0, below = 0;   // leaves
-};
-
-double normalReflectance(double eta) { return std::pow((eta - 1) / (eta + 1), 2); }
-
-Unscattered unscatteredIn(const SlabWalk& walk) {
-    const std::vector<SlabWalk::Layer>& layers = walk.layers;
-    const std::size_t count = layers.size();
-    Unscattered beam{std::vector<double>(count), std::vector<double>(count)};
-    std::vector<double> falls(count), rises(count);  // what has still to be followed
-    falls[static_cast<std::size_t>(walk.first)] = 1;
-    constexpr double nothing = 1e-14;
-    for (double rest = 1; rest > nothing;) {
-        double light = 0;
-        for (std::size_t i = 0; i < count; ++i) {
-            light += std::exchange(falls[i], 0.0);
-            beam.down[i] += light;
-            light *= std::exp(-layers[i].thickness_mm / layers[i].mfp_mm);
-            const double back = normalReflectance(layers[i].eta_down) * light;
-            rises[i] += back;
-            light -= back;
-        }
-        beam.below += light;
-        light = rest = 0;
-        for (std::size_t i = count; i-- > 0;) {
-            light += std::exchange(rises[i], 0.0);
-            beam.up[i] += light;
-            light *= std::exp(-layers[i].thickness_mm / layers[i].mfp_mm);
-            const double back = normalReflectance(layers[i].eta_up) * light;
-            falls[i] += back;
-            rest += back;
-            light -= back;
-        }
-        beam.above += light;
-    }
-    return beam;
-}
 
 // A straight way out of a layer through the others.
 struct Way {
@@ -60,7 +20,7 @@ struct Way {
 class WaysOut {
 public:
     WaysOut(const SlabWalk& walk, std::size_t layer, bool up) : walk_(walk), layer_(layer), up_(up) {
-        double index = 1, least = 1;  // refractive index, in units of that of the layer
+        double least = 1;
         for (std::size_t at = layer;; at = up ? at - 1 : at + 1) {
             index /= eta(at);
             least = std::min(least, index);
@@ -71,10 +31,10 @@ public:
 
     Way at(double sine) const {
         Way way;
-        double index = 1;
+        double relative = 1;  // refractive index
         for (std::size_t at = layer_;; at = up_ ? at - 1 : at + 1) {
             const SlabWalk::Layer& layer = walk_.layers[at];
-            const double leg_sine = std::min(sine / index, 1.0);
+            const double leg_sine = std::min(sine / relative, 1.0);
             const double cosine = std::sqrt((1 - leg_sine) * (1 + leg_sine));
             if (cosine == 0) return {0, 0, 0};
             if (at != layer_) {
@@ -83,11 +43,12 @@ public:
             }
             way.passes *= 1 - internalReflectance(eta(at), cosine);
             if (at == end()) return way;
-            index /= eta(at);
+            relative /= eta(at);
         }
     }
 
     double critical = 0;
+    double index = 1;  // refractive index outside, in units of that of the layer
 
 private:
     std::size_t end() const { return up_ ? 0 : walk_.layers.size() - 1; }
@@ -104,12 +65,88 @@ double decayed(double rate, double h) {
     return -std::expm1(-rate * h) / rate;
 }
 
+// What leaves along one direction, from so near to the side where it leaves: of light of the beam that came from there,
+// and of light that came towards it.
+struct Straight {
+    double sine, lateral, towards, towards_rate, with, with_rate;
+
+    double within(double h) const {
+        return towards * decayed(towards_rate, h) + (with > 0 ? with * decayed(with_rate, h) : 0);
+    }
+};
+
 }  // namespace
 
-SlabSingle slabSingle(const SlabWalk& walk, std::span<const double> edges, const std::vector<char>& foresees) {
-    const Unscattered beam = unscatteredIn(walk);
-    SlabSingle single{std::vector<double>(edges.size() + 1), std::vector<double>(edges.size() + 1), beam.above,
-                      beam.below};
+double SlabUnscattered::collides(const SlabWalk::Layer& layer, std::size_t index, double from_mm, double to_mm) const {
+    const double rate = 1 / (layer.mfp_mm * cosine[index]);
+    const auto between = [&](double near, double far) {
+        return std::exp(-rate * near) * -std::expm1(-rate * (far - near));
+    };
+    const double falls = down[index] > 0 ? down[index] * between(from_mm, to_mm) : 0;
+    if (!(up[index] > 0)) return falls;
+    return falls + up[index] * between(layer.thickness_mm - to_mm, layer.thickness_mm - from_mm);
+}
+
+SlabUnscattered slabUnscattered(const SlabWalk& walk) {
+    const std::vector<SlabWalk::Layer>& layers = walk.layers;
+    const std::size_t count = layers.size(), first = static_cast<std::size_t>(walk.first);
+    SlabUnscattered beam{std::vector<double>(count), std::vector<double>(count), std::vector<double>(count, 1)};
+    const auto cosineOf = [&](double index) {  // in units of that of the first layer
+        const double sine = std::min(walk.sin_beam / index, 1.0);
+        return std::sqrt((1 - sine) * (1 + sine));
+    };
+    double index = 1;
+    for (std::size_t i = first; i < count; ++i) {
+        beam.cosine[i] = cosineOf(index);
+        index /= layers[i].eta_down;
+    }
+    index = 1;
+    for (std::size_t i = first; i-- > 0;) {
+        index /= layers[i + 1].eta_up;
+        beam.cosine[i] = cosineOf(index);
+    }
+    const auto passes = [&](std::size_t i) {
+        return beam.cosine[i] > 0 ? std::exp(-layers[i].thickness_mm / (layers[i].mfp_mm * beam.cosine[i])) : 0.0;
+    };
+    const auto reflects = [&](double eta, std::size_t i) {
+        return beam.cosine[i] > 0 ? internalReflectance(eta, beam.cosine[i]) : 1.0;
+    };
+    std::vector<double> falls(count), rises(count);  // what has still to be followed
+    falls[first] = 1;
+    constexpr double nothing = 1e-14;
+    constexpr int rounds = 10'000;  // glass that reflects nearly all of it keeps what is left
+    double rest = 1;
+    for (int round = 0; rest > nothing && round < rounds; ++round) {
+        double light = 0;
+        for (std::size_t i = 0; i < count; ++i) {
+            light += std::exchange(falls[i], 0.0);
+            beam.down[i] += light;
+            light *= passes(i);
+            const double back = reflects(layers[i].eta_down, i) * light;
+            rises[i] += back;
+            light -= back;
+        }
+        beam.T += light;
+        light = rest = 0;
+        for (std::size_t i = count; i-- > 0;) {
+            light += std::exchange(rises[i], 0.0);
+            beam.up[i] += light;
+            light *= passes(i);
+            const double back = reflects(layers[i].eta_up, i) * light;
+            falls[i] += back;
+            rest += back;
+            light -= back;
+        }
+        beam.R += light;
+    }
+    return beam;
+}
+
+SlabSingle slabSingle(const SlabWalk& walk, std::span<const double> edges, const std::vector<char>& foresees,
+                      std::size_t angles) {
+    const SlabUnscattered beam = slabUnscattered(walk);
+    SlabSingle single{std::vector<double>(edges.size() + 1), std::vector<double>(edges.size() + 1),
+                      std::vector<double>(angles), std::vector<double>(angles)};
     for (std::size_t i = 0; i < walk.layers.size(); ++i) {
         if (!foresees[i]) continue;
         const SlabWalk::Layer& layer = walk.layers[i];
@@ -119,10 +156,11 @@ SlabSingle slabSingle(const SlabWalk& walk, std::span<const double> edges, const
             if (!up && std::isinf(walk.layers.back().thickness_mm)) continue;
             const WaysOut ways(walk, i, up);
             std::vector<double>& flux = up ? single.reflected : single.transmitted;
+            std::vector<double>& flux_a = up ? single.reflected_a : single.transmitted_a;
             // At the distance h from the side where it leaves, light of the beam from that side has decayed by
             // exp(-h), of the beam towards it by exp(h - thickness).
             const double against = up ? beam.down[i] : beam.up[i], along = up ? beam.up[i] : beam.down[i];
-            const auto add = [&](double mu, double one_minus_mu, double dmu) {
+            const auto at = [&](double mu, double one_minus_mu, double dmu) {
                 const double sine = std::sqrt(one_minus_mu * (1 + mu));
                 const Way way = ways.at(sine);
                 const auto phase = [&](double cosine) {
@@ -131,13 +169,16 @@ SlabSingle slabSingle(const SlabWalk& walk, std::span<const double> edges, const
                 const double weight = (1 - layer.absorbed) * per_mm * way.passes * std::exp(-way.tau) * dmu;
                 const double towards = weight * against * phase(-mu), with = weight * along * through * phase(mu);
                 const double towards_rate = per_mm * (1 / mu + 1), with_rate = per_mm * one_minus_mu / mu;
+                return Straight{sine, way.lateral, towards, towards_rate, with, with_rate};
+            };
+            const auto add = [&](double mu, double one_minus_mu, double dmu) {
+                const Straight ray = at(mu, one_minus_mu, dmu);
                 double inner = 0;
                 for (std::size_t k = 0; k <= edges.size(); ++k) {
                     double h = thickness;
-                    if (k < edges.size() && sine * thickness > (edges[k] - way.lateral) * mu)
-                        h = std::max(0.0, (edges[k] - way.lateral) * mu / sine);
-                    const double outer =
-                        towards * decayed(towards_rate, h) + (with > 0 ? with * decayed(with_rate, h) : 0);
+                    if (k < edges.size() && ray.sine * thickness > (edges[k] - ray.lateral) * mu)
+                        h = std::max(0.0, (edges[k] - ray.lateral) * mu / ray.sine);
+                    const double outer = ray.within(h);
                     flux[k] += outer - inner;
                     inner = outer;
                     if (h == thickness) break;
@@ -153,6 +194,17 @@ SlabSingle slabSingle(const SlabWalk& walk, std::span<const double> edges, const
                 const double q = 1 - p * p;
                 add(critical + range * q * q, range * p * p * (1 + q), range * 4 * q * p * dp);
             });
+            // Outside, parts of equal width in the angle.
+            const double part = 0.5 * std::numbers::pi / static_cast<double>(angles), index = ways.index;
+            for (std::size_t a = 0; a < angles; ++a)
+                integrateTowardsZero(part, 2, [&](double offset, double step) {
+                    const double angle = part * static_cast<double>(a + 1) - offset;
+                    const double sine = std::sin(angle) * index;
+                    if (sine >= 1) return;
+                    const double mu = std::sqrt((1 - sine) * (1 + sine));
+                    const double one_minus_mu = sine * sine / (1 + mu);
+                    flux_a[a] += at(mu, one_minus_mu, sine * std::cos(angle) * index / mu * step).within(thickness);
+                });
         }
     }
     return single;

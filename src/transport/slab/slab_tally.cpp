@@ -11,17 +11,16 @@ namespace searchlight {
 
 namespace {
 
-// Angles are found by their sine, which grows with them as a radius does.
+double weightOf(std::int32_t collisions) { return collisions <= kLongWalk ? 1.0 : longWalkWeight(collisions); }
+
+}  // namespace
+
 std::vector<double> sineEdges(std::size_t angles) {
     std::vector<double> edges;
     for (std::size_t i = 0; i <= angles; ++i)
         edges.push_back(std::sin(0.5 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(angles)));
     return edges;
 }
-
-double weightOf(std::int32_t collisions) { return collisions <= kLongWalk ? 1.0 : longWalkWeight(collisions); }
-
-}  // namespace
 
 SlabLayout::SlabLayout(std::span<const double> edges, std::size_t angles, std::size_t depths, double depth_mm,
                        Maps maps, std::vector<Layer> layers)
@@ -43,6 +42,11 @@ SlabLayout::SlabLayout(std::span<const double> edges, std::size_t angles, std::s
     for (const Run run : {A_rz, F_rz}) sizes[run] = maps.radial ? rows() * this->depths() : 0;
     for (const Run run : {R_xy, T_xy}) sizes[run] = maps.grid * maps.grid;
     for (int run = 0; run < runs; ++run) first_[run + 1] = first_[run] + sizes[run];
+}
+
+SlabLayout SlabLayout::withoutAnnuli() const {
+    constexpr double edges[] = {0, 1};
+    return {edges, angles_, depths_, static_cast<double>(depths_) / depths_per_mm_, {}, layers_};
 }
 
 std::size_t SlabLayout::angle(double cosine) const {
@@ -84,6 +88,11 @@ void SlabTally::addCollisions(const Ends& collisions) {
         at(SlabLayout::A_rz, cell) += absorbed;
         at(SlabLayout::F_rz, cell) += fluence;
     }
+}
+
+void SlabTally::addDepth(std::size_t depth, double weight, double absorbed, double path_mm) {
+    at(SlabLayout::A_z, depth) += weight * absorbed;
+    at(SlabLayout::F_z, depth) += weight * path_mm;
 }
 
 void SlabTally::addExits(const Ends& ends) {

@@ -11,6 +11,9 @@
 
 namespace searchlight {
 
+/// Angles are found by their sine, which grows with them as a radius does: the edges of equal parts of 90 degrees.
+std::vector<double> sineEdges(std::size_t angles);
+
 /// What is counted of a slab, as runs of slots of one list. Rows are the slots of `radii` (below the first edge, the
 /// annuli, beyond the last); angles are `angles` equal parts of 90 degrees; depths are `depths` equal parts and one
 /// slot for what lies deeper.
@@ -59,12 +62,16 @@ public:
     SlabLayout(std::span<const double> edges, std::size_t angles, std::size_t depths, double depth_mm, Maps maps,
                std::vector<Layer> layers);
 
+    /// The same without maps, and with a single annulus.
+    SlabLayout withoutAnnuli() const;
+
     std::size_t first(Run run) const { return first_[run]; }
     std::size_t size(Run run) const { return first_[run + 1] - first_[run]; }
     std::size_t slots() const { return first_[runs]; }
     std::size_t rows() const { return radii_.slots(); }
     std::size_t angles() const { return angles_; }
     std::size_t depths() const { return depths_ + 1; }
+    double depthsPerMm() const { return depths_per_mm_; }
     bool maps() const { return maps_.radial; }
     std::size_t grid() const { return maps_.grid; }
 
@@ -104,6 +111,8 @@ public:
     /// Collisions that are counted, also of walks that go on.
     void addCollisions(const Ends& collisions);
     void addExits(const Ends& ends);
+    /// So much weight came to collisions in a bin of depth, with what is absorbed and the path for each.
+    void addDepth(std::size_t depth, double weight, double absorbed, double path_mm);
 
     std::span<const double> flux() const { return flux_; }
 

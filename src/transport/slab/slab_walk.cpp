@@ -12,12 +12,36 @@
 #include <memory>
 #include <utility>
 
+#include "transport/slab/slab_control.h"
+#include "transport/slab/slab_depths.h"
 #include "transport/walk/long_walk.h"
+
+#ifndef SEARCHLIGHT_TRANSPORT_SLAB_JOB
+#define SEARCHLIGHT_TRANSPORT_SLAB_JOB
+namespace searchlight {
+namespace {
+
+// A chunk of walks. control: null, or what to add up beside the tally; depths: null, or these walks know their depth
+// alone.
+struct SlabJob {
+    const SlabWalk& walk;
+    std::uint64_t walks;
+    SlabTally& tally;
+    const SlabControl* control = nullptr;
+    std::span<double> sums = {};
+    const SlabDepths* depths = nullptr;
+};
+
+}  // namespace
+}  // namespace searchlight
+#endif
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "transport/slab/slab_walk.cpp"
 #include <hwy/foreach_target.h>
 
+#include "transport/slab/slab_control-inl.h"
+#include "transport/walk/lane_foresee-inl.h"
 #include "transport/walk/lane_walk-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -66,11 +90,19 @@ struct Ends {
 
 enum class Phase { isotropic, henyey_greenstein, any };
 
-template <Phase kPhase>
+// Whether walks know where they are on the surfaces, or their depth alone.
+enum class Knows { place, depth };
+
+template <Phase kPhase, Knows kKnows>
 class SlabWalker {
 public:
-    SlabWalker(const SlabWalk& walk, SplitMix64 seeds, std::uint64_t walks, SlabTally& tally)
-        : walk_(walk), waiting_(walks), tally_(tally), count_(static_cast<int>(walk.layers.size())) {
+    SlabWalker(const SlabJob& job, SplitMix64 seeds)
+        : walk_(job.walk),
+          waiting_(job.walks),
+          tally_(job.tally),
+          sums_(job.sums),
+          count_(static_cast<int>(job.walk.layers.size())) {
+        const SlabWalk& walk = job.walk;
         for (const SlabWalk::Layer& layer : walk.layers) {
             mfp_.push_back(static_cast<float>(layer.mfp_mm));
             thickness_.push_back(static_cast<float>(layer.thickness_mm));
@@ -85,6 +117,19 @@ public:
         }
         seed(*from_, seeds);
         rare_ = SplitMix64(seeds.next());
+        if constexpr (kKnows == Knows::depth) {
+            depths_ = job.depths;
+            depth_sums_.resize(depths_->slots.size() * kCopies);
+            depth_weights_.resize(depths_->slots.size());
+            for (const SlabDepths::Layer& layer : depths_->layers) {
+                top_.push_back(layer.top);
+                first_bin_.push_back(layer.first);
+                last_bin_.push_back(layer.last);
+                first_slot_.push_back(layer.slot);
+            }
+        }
+        if (job.control == nullptr) return;
+        for (const SlabControl::Layer& layer : job.control->layers) controls_.emplace_back(layer);
     }
 
     std::uint64_t run() {
@@ -92,6 +137,18 @@ public:
         tally_.addExits(exits_.take());
         tally_.addAbsorbed(absorptions_.take());
         tally_.addCollisions(collisions_.take());
+        if constexpr (kKnows == Knows::depth) {
+            emptyLanes(depth_sums_, depth_weights_);
+            for (std::size_t slot = 0; slot < depth_weights_.size(); ++slot) {
+                const auto [index, depth] = depths_->slots[slot];
+                const SlabWalk::Layer& layer = walk_.layers[index];
+                tally_.addDepth(depth, depth_weights_[slot], layer.absorbed, layer.mfp_mm);
+            }
+        }
+        for (std::size_t i = 0; i < controls_.size(); ++i)
+            for (std::size_t k = 0; k < SlabControl::kSums; ++k)
+                for (const float sum : controls_[i].sums[k])
+                    sums_[SlabControl::kSums * i + k] += static_cast<double>(sum);
         return steps - crossings_;  // a step ends in a collision or at an interface
     }
 
@@ -100,7 +157,7 @@ public:
     HWY_INLINE bool advance(std::size_t at) {
         const Float d;
         const Int di;
-        Pack pack = load(*from_, at);
+        Pack pack = take(*from_, at);
         const FloatV length = hn::Mul(exponential(pack.random.next()), hn::Load(d, layers_.mfp + at));
         fly(pack, length);
         // 30 bits: what a smaller probability loses, below 5e-10 a collision, no sum of walks resolves.
@@ -109,11 +166,17 @@ public:
         const hn::Mask<Int> absorbed = hn::Lt(chance, hn::Load(di, layers_.absorbed + at));
         hn::Store(hn::VecFromMask(di, absorbed), di, layers_.fate + at);
         const FloatM crosses = outside(pack, at);
-        const FloatM counted = hn::RebindMask(d, hn::Lt(chance, hn::Load(di, layers_.counted + at)));
-        count(pack, hn::AndNot(crosses, counted), at);
+        if constexpr (kKnows == Knows::place) {
+            const FloatM counted = hn::RebindMask(d, hn::Lt(chance, hn::Load(di, layers_.counted + at)));
+            count(pack, hn::AndNot(crosses, counted), at);
+        } else {
+            // Parked lanes count for nothing.
+            const hn::Mask<Int> walks = hn::Gt(hn::Load(di, layers_.counted + at), hn::Zero(di));
+            countDepth(pack, hn::AndNot(crosses, hn::RebindMask(d, walks)), at);
+        }
 
         turn(pack, at);
-        store(pack, *to_, at);
+        keep(pack, *to_, at);
         const hn::Mask<Int> is_long = hn::Gt(pack.collisions, hn::Load(di, layers_.survives + at));
         return !hn::AllFalse(d, hn::Or(crosses, hn::RebindMask(d, hn::Or(absorbed, is_long))));
     }
@@ -123,7 +186,7 @@ public:
     HWY_INLINE std::size_t settle(std::size_t at) {
         const Float d;
         const Int di;
-        Pack pack = load(*to_, at);
+        Pack pack = take(*to_, at);
         const FloatM crosses = outside(pack, at);
         const IntV index = hn::Load(di, layers_.index + at);
         FloatM free = hn::MaskFromVec(hn::Zero(d));
@@ -139,10 +202,13 @@ public:
             free = hn::Or(free, killed);
         }
         if (!hn::AllFalse(d, absorbed)) absorptions_.add(absorbed, pack.x, pack.y, pack.z, pack.collisions, index);
-        if (absorptions_.full()) tally_.addAbsorbed(absorptions_.take());
+        if (absorptions_.full()) {
+            tally_.addAbsorbed(absorptions_.take());
+            if constexpr (kKnows == Knows::depth) emptyLanes(depth_sums_, depth_weights_);
+        }
         free = hn::Or(free, absorbed);
         const std::size_t parked = hn::AllFalse(d, free) ? 0 : hn::CountTrue(d, free) - start(pack, free, at);
-        store(pack, *to_, at);
+        keep(pack, *to_, at);
         return parked;
     }
 
@@ -155,7 +221,8 @@ public:
         if (!all_start) started = static_cast<std::size_t>(waiting_);
         waiting_ -= started;
         moveToEntry(pack, free, walk_.sin_beam, walk_.cos_beam);
-        if (walk_.entry.size() > 1 || walk_.shape.kind != BeamShape::pencil) place(pack, free, started);
+        if constexpr (kKnows == Knows::place)
+            if (walk_.entry.size() > 1 || walk_.shape.kind != BeamShape::pencil) place(pack, free, started);
         enter(free, hn::Set(di, walk_.first), at);
         storeWhere(hn::RebindMask(di, free), hn::Set(di, kLongWalk), layers_.survives + at);
         if (!all_start) park(free, started, at);
@@ -163,11 +230,95 @@ public:
     }
 
 private:
+    static HWY_INLINE Pack take(const Lanes& lanes, std::size_t at) {
+        if constexpr (kKnows == Knows::place) return load(lanes, at);
+        const Float d;
+        const Word dw;
+        const FloatV zero = hn::Zero(d);
+        return {zero,
+                zero,
+                hn::Load(d, lanes.z + at),
+                {zero, zero, hn::Load(d, lanes.w + at)},
+                hn::Load(Int(), lanes.collisions + at),
+                {hn::Load(dw, lanes.s0 + at / 2), hn::Load(dw, lanes.s1 + at / 2)}};
+    }
+
+    static HWY_INLINE void keep(const Pack& pack, Lanes& lanes, std::size_t at) {
+        if constexpr (kKnows == Knows::place) {
+            store(pack, lanes, at);
+        } else {
+            const Float d;
+            const Word dw;
+            hn::Store(pack.z, d, lanes.z + at);
+            hn::Store(pack.direction.w, d, lanes.w + at);
+            hn::Store(pack.collisions, Int(), lanes.collisions + at);
+            hn::Store(pack.random.s0, dw, lanes.s0 + at / 2);
+            hn::Store(pack.random.s1, dw, lanes.s1 + at / 2);
+        }
+    }
+
+    // What the layer of each lane has in a list.
+    template <class D, class T>
+    HWY_INLINE hn::Vec<D> of(D d, const std::vector<T>& list, std::size_t at) const {
+        if (list.size() == 1) return hn::Set(d, list[0]);
+        return hn::GatherIndex(d, list.data(), hn::Load(Int(), layers_.index + at));
+    }
+
+    // Every collision, by layer and depth.
+    HWY_INLINE void countDepth(const Pack& pack, FloatM collides, std::size_t at) {
+        const Float d;
+        const Int di;
+        const FloatV place = hn::MulAdd(pack.z, hn::Set(d, depths_->per_mm), of(d, top_, at));
+        // Of floats, so that the conversion stays defined.
+        const FloatV bin = hn::Min(hn::Max(place, of(d, first_bin_, at)), of(d, last_bin_, at));
+        const IntV slot = hn::Add(hn::ConvertTo(di, bin), of(di, first_slot_, at));
+        const hn::Mask<Int> is_long = hn::Gt(pack.collisions, hn::Set(di, kLongWalk));
+        if (HWY_UNLIKELY(!hn::AllFalse(di, is_long))) collides = countLong(pack.collisions, slot, collides);
+        addToLanes(depth_sums_.data(), at, hn::IfThenElseZero(hn::RebindMask(di, collides), slot),
+                   hn::IfThenElseZero(collides, hn::Set(d, 1.0f)));
+    }
+
+    // Counts the collisions of long walks, that came with a weight; returns the others.
+    HWY_NOINLINE FloatM countLong(IntV collisions, IntV slot, FloatM collides) {
+        const Float d;
+        HWY_ALIGN std::int32_t count[16], to[16];
+        HWY_ALIGN float others[16] = {};
+        hn::Store(collisions, Int(), count);
+        hn::Store(slot, Int(), to);
+        forEachLane(collides, [&](std::size_t lane, std::size_t) {
+            if (count[lane] <= kLongWalk)
+                others[lane] = 1;
+            else
+                depth_weights_[static_cast<std::size_t>(to[lane])] += longWalkWeight(count[lane] - 1);
+        });
+        return hn::Ne(hn::Load(d, others), hn::Zero(d));
+    }
+
     // Into the direction after a collision.
     HWY_INLINE void turn(Pack& pack, std::size_t at) {
         const Float d;
         const Int di;
-        if constexpr (kPhase != Phase::any) {
+        if constexpr (kKnows == Knows::depth) {
+            const IntV bits = pack.random.next();
+            if constexpr (kPhase == Phase::isotropic) {
+                pack.direction.w = signedUniform(bits);
+                return;
+            }
+            FloatV versine = henyeyGreensteinVersine(hn::Load(d, layers_.g + at), hn::Load(d, layers_.half_qq + at),
+                                                     signedUniform(bits));
+            if constexpr (kPhase == Phase::any) {
+                const FloatV bins = hn::Load(d, layers_.table_bins + at);
+                const FloatV table = tabulatedVersine(walk_.tables, hn::Load(di, layers_.table + at),
+                                                      hn::Max(bins, hn::Set(d, 1.0f)), bits, pack.random.next());
+                versine = hn::IfThenElse(hn::Gt(bins, hn::Zero(d)), table, versine);
+            }
+            const FloatV one = hn::Set(d, 1.0f), w = pack.direction.w;
+            const FloatV across2 = hn::Mul(hn::Mul(versine, hn::Sub(hn::Set(d, 2.0f), versine)),
+                                           hn::Max(hn::NegMulAdd(w, w, one), hn::Zero(d)));
+            const FloatV cosine =
+                hn::MulAdd(hn::Sqrt(across2), azimuth(pack.random.next()).cos, hn::NegMulAdd(w, versine, w));
+            pack.direction.w = hn::Min(hn::Max(cosine, hn::Set(d, -1.0f)), one);
+        } else if constexpr (kPhase != Phase::any) {
             scatter<kPhase == Phase::isotropic>(pack, hn::Load(d, layers_.g + at), hn::Load(d, layers_.half_qq + at));
         } else {
             const FloatV bins = hn::Load(d, layers_.table_bins + at);
@@ -199,7 +350,7 @@ private:
     HWY_INLINE FloatM cross(Pack& pack, FloatM crosses, IntV index, std::size_t at) {
         const Float d;
         const Int di;
-        const Pack before = load(*from_, at);
+        const Pack before = take(*from_, at);
         const Direction& in = before.direction;
         const FloatM up = hn::Lt(in.w, hn::Zero(d));
         const hn::Mask<Int> up_i = hn::RebindMask(di, up);
@@ -214,6 +365,15 @@ private:
         const FloatM is_out =
             hn::RebindMask(d, hn::Or(hn::Lt(beyond, hn::Zero(di)), hn::Gt(beyond, hn::Set(di, count_ - 1))));
         const FloatM leaves = hn::And(passes, is_out), enters = hn::AndNot(is_out, passes);
+        if (!controls_.empty()) {
+            const FloatV weight = weightOf(before.collisions), w = hn::Abs(in.w);
+            for (LaneControl& control : controls_) {
+                const hn::Mask<Int> here = hn::Eq(index, hn::Set(di, control.index));
+                gain<true>(control, hn::And(crosses, hn::RebindMask(d, here)), up, passes, w, weight, at);
+                const hn::Mask<Int> there = hn::Eq(beyond, hn::Set(di, control.index));
+                gain<false>(control, hn::And(enters, hn::RebindMask(d, there)), up, passes, ray.cosine, weight, at);
+            }
+        }
         pack.x = hn::IfThenElse(crosses, hn::MulAdd(length, in.u, before.x), pack.x);
         pack.y = hn::IfThenElse(crosses, hn::MulAdd(length, in.v, before.y), pack.y);
         pack.z = hn::IfThenElse(crosses, interface, pack.z);
@@ -228,7 +388,11 @@ private:
         }
         if (!hn::AllFalse(d, leaves)) {
             exits_.add(leaves, pack.x, pack.y, ray.cosine, pack.collisions, beyond);
-            if (exits_.full()) tally_.addExits(exits_.take());
+            if (exits_.full()) {
+                tally_.addExits(exits_.take());
+                // Floats count to 2^24, and no walk is nearly so long that 1,000 of them get there in one lane.
+                if constexpr (kKnows == Knows::depth) emptyLanes(depth_sums_, depth_weights_);
+            }
         }
         crossings_ += hn::CountTrue(d, crosses);
         return leaves;
@@ -304,6 +468,7 @@ private:
     std::uint64_t crossings_ = 0;
     SplitMix64 rare_;
     SlabTally& tally_;
+    std::span<double> sums_;
     std::int32_t count_;
     std::vector<float> mfp_, thickness_, g_, half_qq_, table_bins_;
     std::vector<std::int32_t> table_;
@@ -312,20 +477,28 @@ private:
     Lanes lanes_[2];
     Lanes *from_ = &lanes_[0], *to_ = &lanes_[1];  // before and after the current step
     Layers layers_;
+    std::vector<LaneControl> controls_;
+    const SlabDepths* depths_ = nullptr;
+    std::vector<float> top_, first_bin_, last_bin_;  // per layer
+    std::vector<std::int32_t> first_slot_;
+    std::vector<float> depth_sums_;  // per slot: kCopies counts
+    std::vector<double> depth_weights_;
     Ends exits_, absorptions_, collisions_;
 };
 
-}  // namespace
-
 template <Phase kPhase>
-std::uint64_t walkAs(const SlabWalk& walk, SplitMix64 seeds, std::uint64_t walks, SlabTally& tally) {
-    return std::make_unique<SlabWalker<kPhase>>(walk, seeds, walks, tally)->run();
+std::uint64_t walkAs(const SlabJob& job, SplitMix64 seeds) {
+    if (job.depths == nullptr) return std::make_unique<SlabWalker<kPhase, Knows::place>>(job, seeds)->run();
+    return std::make_unique<SlabWalker<kPhase, Knows::depth>>(job, seeds)->run();
 }
 
-std::uint64_t walkSlab(const SlabWalk& walk, SplitMix64 seeds, std::uint64_t walks, SlabTally& tally) {
-    if (!walk.tables.stay.empty()) return walkAs<Phase::any>(walk, seeds, walks, tally);
-    const bool isotropic = std::ranges::all_of(walk.layers, [](const SlabWalk::Layer& layer) { return layer.g == 0; });
-    return (isotropic ? walkAs<Phase::isotropic> : walkAs<Phase::henyey_greenstein>)(walk, seeds, walks, tally);
+}  // namespace
+
+std::uint64_t walkSlab(const SlabJob& job, SplitMix64 seeds) {
+    if (!job.walk.tables.stay.empty()) return walkAs<Phase::any>(job, seeds);
+    const bool isotropic =
+        std::ranges::all_of(job.walk.layers, [](const SlabWalk::Layer& layer) { return layer.g == 0; });
+    return (isotropic ? walkAs<Phase::isotropic> : walkAs<Phase::henyey_greenstein>)(job, seeds);
 }
 
 const char* slabTarget() { return hwy::TargetName(HWY_TARGET); }
@@ -360,7 +533,18 @@ double entryShift(const std::vector<SlabWalk::Surface>& surfaces, SplitMix64& ra
 
 std::uint64_t walkSlabChunk(const SlabWalk& walk, std::uint64_t seed, std::uint64_t chunk, std::uint64_t walks,
                             SlabTally& tally) {
-    return HWY_DYNAMIC_DISPATCH(walkSlab)(walk, streamOf(seed, chunk), walks, tally);
+    return HWY_DYNAMIC_DISPATCH(walkSlab)({walk, walks, tally}, streamOf(seed, chunk));
+}
+
+std::uint64_t walkSlabChunk(const SlabWalk& walk, std::uint64_t seed, std::uint64_t chunk, std::uint64_t walks,
+                            SlabTally& tally, const SlabControl& control, std::span<double> sums) {
+    return HWY_DYNAMIC_DISPATCH(walkSlab)({walk, walks, tally, &control, sums}, streamOf(seed, chunk));
+}
+
+std::uint64_t walkSlabDepthsChunk(const SlabWalk& walk, std::uint64_t seed, std::uint64_t chunk, std::uint64_t walks,
+                                  SlabTally& tally, const SlabControl& control, std::span<double> sums,
+                                  const SlabDepths& depths) {
+    return HWY_DYNAMIC_DISPATCH(walkSlab)({walk, walks, tally, &control, sums, &depths}, streamOf(seed, chunk));
 }
 
 const char* slabInstructionSet() { return HWY_DYNAMIC_DISPATCH(slabTarget)(); }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "transport/slab/slab_tally.h"
@@ -9,6 +10,9 @@
 #include "transport/walk/phase_function.h"
 
 namespace searchlight {
+
+struct SlabControl;
+struct SlabDepths;
 
 /// What a walk knows of its slab. Lengths are in mm.
 struct SlabWalk {
@@ -43,6 +47,16 @@ double entryShift(const std::vector<SlabWalk::Surface>& surfaces, SplitMix64& ra
 /// number of collisions.
 std::uint64_t walkSlabChunk(const SlabWalk& walk, std::uint64_t seed, std::uint64_t chunk, std::uint64_t walks,
                             SlabTally& tally);
+
+/// walkSlabChunk, and the control's sums of its walks; the tally is the same.
+std::uint64_t walkSlabChunk(const SlabWalk& walk, std::uint64_t seed, std::uint64_t chunk, std::uint64_t walks,
+                            SlabTally& tally, const SlabControl& control, std::span<double> sums);
+
+/// The same without places on the surfaces, in less time: walks that know their depth alone, all of whose collisions
+/// count. The tally's layout has one annulus.
+std::uint64_t walkSlabDepthsChunk(const SlabWalk& walk, std::uint64_t seed, std::uint64_t chunk, std::uint64_t walks,
+                                  SlabTally& tally, const SlabControl& control, std::span<double> sums,
+                                  const SlabDepths& depths);
 
 /// The instruction set that walkSlabChunk uses: "AVX3", "AVX2", "SSE4"...
 const char* slabInstructionSet();

@@ -12,10 +12,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/random.h"
+#include "transport/slab/slab_tally.h"
 #include "transport/slab/slab_walk.h"
 #include "transport/walk/lane_foresee-inl.h"
 #include "transport/walk/lane_scatter-inl.h"
-#include "transport/walk/random.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace searchlight {
@@ -28,8 +29,9 @@ class SlabWays {
 public:
     static constexpr std::size_t kCount = 64;
 
-    /// up: through the top.
-    SlabWays(const SlabWalk& walk, bool up, SplitMix64& random) : sequence_(random) {
+    /// up: through the top. angles: into how many the quadrant outside is cut.
+    SlabWays(const SlabWalk& walk, bool up, std::size_t angles, SplitMix64& random)
+        : angle(walk.layers.size() * kCount), sines_(laneBins(sineEdges(angles))), sequence_(random) {
         const std::size_t layers = walk.layers.size();
         for (std::vector<float>* field : {&path, &tau, &x, &y, &x_beyond, &y_beyond, &share, &u, &v, &w})
             field->assign(layers * kCount, 0);
@@ -71,15 +73,21 @@ public:
                 const FloatV mu = hn::MulAdd(range, place, hn::Set(d, from.critical));
                 const FloatV sine = sineOf(mu), inverse = inverseOf(mu);
                 const FloatV slope = hn::Mul(sine, inverse);
-                FloatV passes = one, lateral = hn::Zero(d), depth = hn::Zero(d);
+                FloatV passes = one, lateral = hn::Zero(d), depth = hn::Zero(d), outside = one;
                 for (const Leg& leg : from.legs) {
                     // n sin is the same in all layers.
                     const FloatV leg_sine = hn::Min(hn::Mul(sine, hn::Set(d, leg.sine)), one);
                     const FloatV cosine = sineOf(leg_sine), leg_inverse = inverseOf(cosine);
                     lateral = hn::MulAdd(hn::Set(d, leg.thickness), hn::Mul(leg_sine, leg_inverse), lateral);
                     depth = hn::MulAdd(hn::Set(d, leg.tau), leg_inverse, depth);
-                    passes = hn::Mul(passes, hn::Sub(one, fresnel(cosine, hn::Set(d, leg.eta)).reflectance));
+                    const Refraction ray = fresnel(cosine, hn::Set(d, leg.eta));
+                    passes = hn::Mul(passes, hn::Sub(one, ray.reflectance));
+                    outside = ray.cosine;
                 }
+                // The slot below the first edge is empty.
+                const IntV slot = slotOf(sines_, hn::NegMulAdd(outside, outside, one));
+                const IntV last = hn::Set(Int(), static_cast<int>(sines_.next_edge.size()) - 3);
+                hn::StoreU(hn::Min(hn::Sub(slot, hn::Set(Int(), 1)), last), Int(), angle.data() + at);
                 hn::StoreU(hn::Mul(inverse, hn::Set(d, from.per_mm)), d, path.data() + at);
                 hn::StoreU(depth, d, tau.data() + at);
                 hn::StoreU(hn::Mul(slope, phi.cos), d, x.data() + at);
@@ -94,13 +102,14 @@ public:
         }
     }
 
-    std::vector<float> path;      ///< optical, for each mm between the collision and the end of its layer
-    std::vector<float> tau;       ///< optical, beyond that
-    std::vector<float> x, y;      ///< lateral, for each mm within the layer
-    std::vector<float> x_beyond;  ///< lateral, beyond it, mm
-    std::vector<float> y_beyond;  ///< the other
-    std::vector<float> share;     ///< of isotropically scattered light: goes that way and is not reflected
-    std::vector<float> u, v, w;   ///< the direction; w is above 0 on both sides
+    std::vector<float> path;          ///< optical, for each mm between the collision and the end of its layer
+    std::vector<float> tau;           ///< optical, beyond that
+    std::vector<float> x, y;          ///< lateral, for each mm within the layer
+    std::vector<float> x_beyond;      ///< lateral, beyond it, mm
+    std::vector<float> y_beyond;      ///< the other
+    std::vector<float> share;         ///< of isotropically scattered light: goes that way and is not reflected
+    std::vector<float> u, v, w;       ///< the direction; w is above 0 on both sides
+    std::vector<std::int32_t> angle;  ///< outside: which part of the quadrant
 
 private:
     // A layer on the way, its own first, and the interface at its far side.
@@ -123,6 +132,7 @@ private:
         return hn::Div(hn::Set(d, 1.0f), hn::Max(cosine, hn::Set(d, 1e-9f)));
     }
 
+    LaneBins sines_;
     std::vector<From> from_;
     EvenSequence sequence_;
 };

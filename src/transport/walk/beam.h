@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/random.h"
 #include "transport/walk/fresnel.h"
-#include "transport/walk/random.h"
 
 namespace searchlight {
 

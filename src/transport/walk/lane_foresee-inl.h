@@ -11,9 +11,9 @@
 #include <cstring>
 #include <vector>
 
+#include "base/random.h"
 #include "transport/walk/lane_bins.h"
 #include "transport/walk/lane_math-inl.h"
-#include "transport/walk/random.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace searchlight {
@@ -114,6 +114,23 @@ inline void emptyCopies(std::vector<float>& histogram, std::size_t stride, doubl
             to[i] += static_cast<double>(histogram[copy + i]);
             histogram[copy + i] = 0;
         }
+}
+
+/// Adds weights to slots of kCopies sums each that lie together, each lane of the pack from `at` to its own.
+HWY_INLINE void addToLanes(float* sums, std::size_t at, IntV slot, FloatV weight) {
+    const Float d;
+    const Int di;
+    const IntV copy = hn::Iota(di, static_cast<int>(at % kCopies));
+    const IntV index = hn::Add(hn::Mul(slot, hn::Set(di, static_cast<int>(kCopies))), copy);
+    hn::ScatterIndex(hn::Add(hn::GatherIndex(d, sums, index), weight), d, sums, index);
+}
+
+/// Takes what addToLanes() has added to `to`, slot by slot.
+inline void emptyLanes(std::vector<float>& sums, std::vector<double>& to) {
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+        to[i / kCopies] += static_cast<double>(sums[i]);
+        sums[i] = 0;
+    }
 }
 
 /// Which cell of a table with 2^mantissa_bits cells for each octave of `square`, from `offset` on; `last` beyond.

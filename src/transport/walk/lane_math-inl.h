@@ -8,22 +8,14 @@
 #define SEARCHLIGHT_TRANSPORT_LANE_MATH_INL_H_
 #endif
 
-#include <hwy/highway.h>
+#include "base/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace searchlight {
 namespace HWY_NAMESPACE {
 
-namespace hn = hwy::HWY_NAMESPACE;
-
-// 16 lanes where the hardware has them, otherwise what it has: lane i computes the same either way.
-using Float = hn::CappedTag<float, 16>;
-using Int = hn::RebindToSigned<Float>;
 using Word = hn::Repartition<uint64_t, Float>;
-using FloatV = hn::Vec<Float>;
-using IntV = hn::Vec<Int>;
 using WordV = hn::Vec<Word>;
-using FloatM = hn::Mask<Float>;
 
 /// xoroshiro128++ ([Blackman2021]) in each 64-bit lane: two neighbouring float lanes share a generator and take the low
 /// and the high half of its output.

@@ -12,8 +12,8 @@
 #include <limits>
 #include <utility>
 
+#include "base/random.h"
 #include "transport/walk/lane_scatter-inl.h"
-#include "transport/walk/random.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace searchlight {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "transport/walk/random.h"
+#include "base/random.h"
 
 namespace searchlight {
 

@@ -5,9 +5,9 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "base/random.h"
 #include "base/text.h"
 #include "transport/walk/beam.h"
-#include "transport/walk/random.h"
 #include "transport/white/white.h"
 #include "transport/white/white_roulette.h"
 #include "transport/white/white_walk.h"

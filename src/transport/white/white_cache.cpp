@@ -8,7 +8,7 @@
 #include "base/cache_folder.h"
 #include "base/error.h"
 #include "base/files.h"
-#include "transport/walk/random.h"
+#include "base/random.h"
 #include "transport/white/white_file.h"
 
 namespace searchlight {

@@ -1,4 +1,4 @@
-#include "transport/half_space/complex_bessel.h"
+#include "transport/exact/complex_bessel.h"
 
 #include <array>
 #include <cmath>
@@ -42,6 +42,22 @@ BesselK integral(Complex z) {
     return {step * K0, step * K1};
 }
 
+// The same integral along t + i turn tanh(t), where exp(-z cosh) falls although z is close to the imaginary axis.
+BesselK turnedIntegral(Complex z) {
+    constexpr double step = 1.0 / 16;
+    const double turn = -std::arg(z);
+    Complex K0, K1;
+    for (int i = 0; i * step < 7; ++i) {
+        const double t = i * step, slope = std::tanh(t), half = i == 0 ? 0.5 : 1;
+        const Complex at(t, turn * slope), cosh = std::cosh(at);
+        const Complex term = half * Complex(1, turn * (1 - slope * slope)) * std::exp(-z * cosh);
+        K0 += term;
+        K1 += term * cosh;
+        if (std::abs(term) < 1e-17 * std::abs(K0)) break;
+    }
+    return {step * K0, step * K1};
+}
+
 // [Abramowitz1964] 9.7.2. Terms fall until n = 2 |z|.
 BesselK asymptoticSeries(Complex z) {
     Complex sums[2];
@@ -62,7 +78,9 @@ BesselK asymptoticSeries(Complex z) {
 BesselK besselK(Complex z) {
     const double size = std::abs(z);
     if (size < 2) return ascendingSeries(z);
-    return size < 18 ? integral(z) : asymptoticSeries(z);
+    if (size >= 18) return asymptoticSeries(z);
+    // Slightly more than pi/4: rounding of the argument.
+    return std::abs(z.imag()) <= 1.0001 * z.real() ? integral(z) : turnedIntegral(z);
 }
 
 }  // namespace searchlight

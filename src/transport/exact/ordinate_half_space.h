@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/observer.h"
-#include "transport/half_space/exact_half_space.h"
+#include "transport/exact/exact_half_space.h"
 
 namespace searchlight {
 

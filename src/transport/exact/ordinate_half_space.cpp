@@ -1,4 +1,4 @@
-#include "transport/half_space/ordinate_half_space.h"
+#include "transport/exact/ordinate_half_space.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "transport/half_space/ordinates.h"
+#include "transport/exact/ordinates.h"
 #include "transport/walk/fresnel.h"
 
 namespace searchlight {

@@ -8,7 +8,7 @@
 // What has been scattered once or twice varies with phi as fast as q, which no few directions follow: these two orders
 // are taken off as the same directions have them, and put back as they are. The azimuths are crowded about those across
 // k, where q varies, in proportion to 1 / |rate|.
-#include "transport/half_space/ordinates.h"
+#include "transport/exact/ordinates.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -16,6 +16,7 @@
 #include <numbers>
 #include <vector>
 
+#include "transport/exact/ordinate_scattering.h"
 #include "transport/walk/fresnel.h"
 
 namespace searchlight {
@@ -30,37 +31,6 @@ using Vector = Eigen::VectorXcd;
 constexpr int kMostSteps = 60;  // of Newton's iteration; 20 were seen at rates of 1e3
 constexpr double kSmallestMoment = 1e-9;
 
-struct Rule {
-    std::vector<double> x, weight;
-};
-
-// Gauss-Legendre on [0, 1].
-Rule gauss(int n) {
-    Rule rule;
-    for (int i = 0; i < n; ++i) {
-        double z = std::cos(pi * (i + 0.75) / (n + 0.5)), slope = 1;
-        for (int step = 0; step < 20; ++step) {
-            double before = 1, at = z;
-            for (int k = 2; k <= n; ++k) {
-                const double next = ((2 * k - 1) * z * at - (k - 1) * before) / k;
-                before = at;
-                at = next;
-            }
-            if (n == 1) before = 1;
-            slope = n * (z * at - before) / (z * z - 1);
-            z -= at / slope;
-        }
-        rule.x.push_back(0.5 * (1 - z));
-        rule.weight.push_back(1 / ((1 - z * z) * slope * slope));
-    }
-    return rule;
-}
-
-double henyeyGreenstein(double g, double cosine) {
-    const double d = 1 + g * g - 2 * g * cosine;
-    return (1 - g * g) / (4 * pi * d * std::sqrt(d));
-}
-
 // Directions of one hemisphere, mirrored at the plane of k: a weight holds both.
 struct Directions {
     struct Cosine {
@@ -69,7 +39,8 @@ struct Directions {
 
     // Cosines of the hemisphere, and so many azimuths at each.
     Directions(const OrdinateMedium& medium, const std::vector<Cosine>& cosines, int azimuths, Complex rate) {
-        const Rule rule = gauss(azimuths);
+        const GaussRule rule = gaussRule(azimuths);
+        set.azimuths = rule.x.size();
         for (const Cosine& at : cosines) {
             const double sine = std::sqrt((1 - at.mu) * (1 + at.mu));
             const double width = std::min(1.0, 1 / (std::abs(rate) * sine + 1e-300)),
@@ -78,32 +49,33 @@ struct Directions {
             for (std::size_t j = 0; j < rule.x.size(); ++j) {
                 // From the direction across k.
                 const double x = end * (2 * rule.x[j] - 1), angle = width * std::sinh(x);
-                mu.push_back(at.mu);
-                weight.push_back(at.weight * 4 * end * rule.weight[j] * width * std::cosh(x));
+                set.mu.push_back(at.mu);
+                set.weight.push_back(at.weight * 4 * end * rule.weight[j] * width * std::cosh(x));
                 F.push_back(reflectance);
                 along.push_back(sine * std::sin(angle));
                 across.push_back(sine * std::cos(angle));
-                phi.push_back(0.5 * pi - angle);
+                set.phi.push_back(0.5 * pi - angle);
                 Q.push_back((1.0 - rate * along.back()) / at.mu);
             }
         }
     }
 
-    std::size_t size() const { return mu.size(); }
+    std::size_t size() const { return set.mu.size(); }
 
-    std::vector<double> mu, weight, F, along, across, phi;
+    OrdinateSet set;
+    std::vector<double> F, along, across;
     std::vector<Complex> Q;  // q / mu
 };
 
 std::vector<Directions::Cosine> cosinesOf(const OrdinateMedium& medium, const OrdinateCount& count) {
     std::vector<Directions::Cosine> cosines;
     const double critical = criticalCosine(medium.eta);
-    const Rule escaping = gauss(count.escaping);
+    const GaussRule escaping = gaussRule(count.escaping);
     if (critical == 0) {
         for (std::size_t i = 0; i < escaping.x.size(); ++i) cosines.push_back({escaping.x[i], escaping.weight[i]});
         return cosines;
     }
-    const Rule reflected = gauss(count.reflected);
+    const GaussRule reflected = gaussRule(count.reflected);
     for (std::size_t i = 0; i < reflected.x.size(); ++i)
         cosines.push_back({critical * reflected.x[i], critical * reflected.weight[i]});
     // The square smooths the root in T at the critical cosine.
@@ -119,7 +91,7 @@ std::vector<Directions::Cosine> fineCosines(const OrdinateMedium& medium, int co
     const double critical = std::acos(criticalCosine(medium.eta)), middle = 0.5 * critical;
     const double width = std::min(1.0, 1 / (std::abs(rate) + 1e-300)), end = std::asinh(middle / width);
     std::vector<Directions::Cosine> cosines;
-    const Rule rule = gauss(count);
+    const GaussRule rule = gaussRule(count);
     const auto add = [&](double angle, double weight) {
         cosines.push_back({std::cos(angle), std::sin(angle) * weight});
     };
@@ -131,89 +103,6 @@ std::vector<Directions::Cosine> fineCosines(const OrdinateMedium& medium, int co
         if (medium.eta > 1) cosines.push_back({mu, std::cos(critical) * w});
     }
     return cosines;
-}
-
-// sqrt((l - m)! / (l + m)!) P_l^m(x) for l up to `last`; 0 below m.
-std::vector<double> legendre(int m, int last, double x) {
-    std::vector<double> p(static_cast<std::size_t>(last) + 1, 0.0);
-    const double sine = std::sqrt((1 - x) * (1 + x));
-    double diagonal = 1;
-    for (int k = 1; k <= m; ++k) diagonal *= sine * std::sqrt((2 * k - 1.0) / (2 * k));
-    const auto at = [&](int l) -> double& { return p[static_cast<std::size_t>(l)]; };
-    if (m <= last) at(m) = diagonal;
-    if (m + 1 <= last) at(m + 1) = x * std::sqrt(2 * m + 1.0) * diagonal;
-    for (int l = m + 2; l <= last; ++l)
-        at(l) = ((2 * l - 1) * x * at(l - 1) - std::sqrt((l - 1.0 - m) * (l - 1.0 + m)) * at(l - 2)) /
-                std::sqrt((static_cast<double>(l) - m) * (static_cast<double>(l) + m));
-    return p;
-}
-
-// The phase function between the directions, and from the beam into them.
-struct Scattering {
-    Eigen::MatrixXd same, other;   // hemispheres, 1/sr
-    std::vector<double> down, up;  // from the beam
-};
-
-// The harmonics are made orthonormal on the directions, lowest first: scattering then has exactly the eigenvalues g^l,
-// so that no energy is lost and the diffusion length is right however few the directions. Harmonics that are even and
-// odd in mu do not meet.
-Scattering scatteringOf(const OrdinateMedium& medium, const Directions& directions, std::size_t azimuths) {
-    const auto n = static_cast<Eigen::Index>(directions.size());
-    const auto cosines = static_cast<int>(directions.size() / azimuths);
-    int last = 0;
-    if (medium.g != 0)
-        last =
-            std::min(2 * cosines - 2, static_cast<int>(std::log(kSmallestMoment) / std::log(std::abs(medium.g))) + 1);
-    Scattering scattering;
-    scattering.down.assign(directions.size(), 0.0);
-    scattering.up = scattering.down;
-    Eigen::MatrixXd kernels[2];
-    for (int parity = 0; parity < 2; ++parity) {
-        struct Harmonic {
-            int l, m;
-        };
-        std::vector<Harmonic> harmonics;
-        for (int l = 0; l <= last; ++l)
-            for (int m = 0; m <= l; ++m)
-                if ((l + m) % 2 == parity) harmonics.push_back({l, m});
-        kernels[parity] = Eigen::MatrixXd::Zero(n, n);
-        if (harmonics.size() > directions.size()) harmonics.resize(directions.size());
-        if (harmonics.empty()) continue;
-        const auto count = static_cast<Eigen::Index>(harmonics.size());
-        Eigen::MatrixXd values(n, count);
-        Eigen::VectorXd moments(count);
-        for (Eigen::Index h = 0; h < count; ++h) {
-            const auto [l, m] = harmonics[static_cast<std::size_t>(h)];
-            moments[h] = std::pow(medium.g, l);
-            const double norm = std::sqrt((2 * l + 1) / (4 * pi) * (m > 0 ? 2 : 1) * 2);
-            double p = 0;
-            for (std::size_t i = 0; i < directions.size(); ++i) {
-                if (i % azimuths == 0) p = legendre(m, l, directions.mu[i]).back();
-                values(static_cast<Eigen::Index>(i), h) =
-                    std::sqrt(directions.weight[i]) * norm * p * std::cos(m * directions.phi[i]);
-            }
-        }
-        const Eigen::HouseholderQR<Eigen::MatrixXd> qr(values);
-        Eigen::MatrixXd basis = qr.householderQ() * Eigen::MatrixXd::Identity(n, count);
-        for (Eigen::Index h = 0; h < count; ++h)
-            if (qr.matrixQR()(h, h) < 0) basis.col(h) *= -1;
-        kernels[parity] = basis * moments.asDiagonal() * basis.transpose();
-        for (Eigen::Index h = 0; h < count; ++h) {
-            const auto [l, m] = harmonics[static_cast<std::size_t>(h)];
-            if (m > 0) continue;
-            for (std::size_t i = 0; i < directions.size(); ++i) {
-                const double part = moments[h] * std::sqrt((2 * l + 1) / (4 * pi)) *
-                                    basis(static_cast<Eigen::Index>(i), h) / std::sqrt(2 * directions.weight[i]);
-                scattering.down[i] += part;
-                scattering.up[i] += parity == 0 ? part : -part;
-            }
-        }
-    }
-    Eigen::VectorXd scale(n);
-    for (Eigen::Index i = 0; i < n; ++i) scale[i] = 1 / std::sqrt(2 * directions.weight[static_cast<std::size_t>(i)]);
-    scattering.same = scale.asDiagonal() * (kernels[0] + kernels[1]) * scale.asDiagonal();
-    scattering.other = scale.asDiagonal() * (kernels[0] - kernels[1]) * scale.asDiagonal();
-    return scattering;
 }
 
 // Z of the comment above: Newton's iteration for the sign, with determinants as scale. Modes decay where the continued
@@ -242,7 +131,7 @@ Matrix decayingModes(Matrix plus, Matrix minus, Complex rate) {
 Complex secondOrder(const OrdinateMedium& medium, const Directions& to, std::size_t i, const Directions& from,
                     std::size_t j, double same, double other, double down, double up) {
     const Complex first = up / (from.Q[j] + 1.0), last = 1.0 / (to.Q[i] + 1.0);
-    return medium.albedo * medium.albedo * from.weight[j] / from.mu[j] *
+    return medium.albedo * medium.albedo * from.set.weight[j] / from.set.mu[j] *
            (other * (down * last + from.F[j] * first) / (to.Q[i] + from.Q[j]) + same * first * last);
 }
 
@@ -252,7 +141,7 @@ Complex secondOrderTransform(const OrdinateMedium& medium, const OrdinateCount& 
     const Directions at(medium, fineCosines(medium, count.second_panel, rate), count.second_azimuths, rate);
     const double g = medium.g;
     std::vector<double> down, up;
-    for (const double mu : at.mu) {
+    for (const double mu : at.set.mu) {
         down.push_back(henyeyGreenstein(g, mu));
         up.push_back(henyeyGreenstein(g, -mu));
     }
@@ -264,7 +153,7 @@ Complex secondOrderTransform(const OrdinateMedium& medium, const OrdinateCount& 
             double same = 1 / (4 * pi), other = same;
             if (g != 0) {
                 // Mean over both sides of the plane of k.
-                const double normal = at.mu[i] * at.mu[j], along = at.along[i] * at.along[j];
+                const double normal = at.set.mu[i] * at.set.mu[j], along = at.along[i] * at.along[j];
                 const double across = at.across[i] * at.across[j];
                 same =
                     0.5 * (henyeyGreenstein(g, normal + along + across) + henyeyGreenstein(g, normal + along - across));
@@ -273,15 +162,18 @@ Complex secondOrderTransform(const OrdinateMedium& medium, const OrdinateCount& 
             }
             inner += secondOrder(medium, at, i, at, j, same, other, down[j], up[j]);
         }
-        sum += at.weight[i] * (1 - at.F[i]) * inner;
+        sum += at.set.weight[i] * (1 - at.F[i]) * inner;
     }
     return sum;
 }
 
 Complex ordinateTransform(const OrdinateMedium& medium, const OrdinateCount& count, Complex rate) {
-    const auto azimuths = static_cast<std::size_t>(count.azimuths);
     const Directions at(medium, cosinesOf(medium, count), count.azimuths, rate);
-    const Scattering scattering = scatteringOf(medium, at, azimuths);
+    std::vector<double> moments;
+    for (double moment = 1; std::abs(moment) > kSmallestMoment && moments.size() < 2 * at.size() / at.set.azimuths - 1;
+         moment *= medium.g)
+        moments.push_back(moment);
+    const OrdinateScattering scattering = ordinateScattering(moments, at.set);
     const auto n = static_cast<Eigen::Index>(at.size());
     const double a = medium.albedo;
     Matrix alpha(n, n), beta(n, n);
@@ -289,13 +181,14 @@ Complex ordinateTransform(const OrdinateMedium& medium, const OrdinateCount& cou
     for (Eigen::Index i = 0; i < n; ++i) {
         const auto to = static_cast<std::size_t>(i);
         for (Eigen::Index j = 0; j < n; ++j) {
-            const double part = a * at.weight[static_cast<std::size_t>(j)] / at.mu[to];
-            alpha(i, j) = -part * scattering.same(i, j);
-            beta(i, j) = part * scattering.other(i, j);
+            const auto from = static_cast<std::size_t>(j);
+            const double part = a * at.set.weight[from] / at.set.mu[to];
+            alpha(i, j) = -part * scattering.same[to * at.size() + from];
+            beta(i, j) = part * scattering.other[to * at.size() + from];
         }
         alpha(i, i) += at.Q[to];
-        down[i] = a * scattering.down[to] / at.mu[to];
-        up[i] = a * scattering.up[to] / at.mu[to];
+        down[i] = a * scattering.down[to] / at.set.mu[to];
+        up[i] = a * scattering.up[to] / at.set.mu[to];
     }
     const Matrix one = Matrix::Identity(n, n), modes = decayingModes(alpha + beta, alpha - beta, rate);
     const Matrix reflection = (modes + one).transpose().partialPivLu().solve((modes - one).transpose()).transpose();
@@ -312,11 +205,12 @@ Complex ordinateTransform(const OrdinateMedium& medium, const OrdinateCount& cou
         Complex two = 0;
         for (Eigen::Index j = 0; j < n; ++j) {
             const auto from = static_cast<std::size_t>(j);
-            two += secondOrder(medium, at, to, at, from, scattering.same(i, j), scattering.other(i, j),
+            const std::size_t cell = to * at.size() + from;
+            two += secondOrder(medium, at, to, at, from, scattering.same[cell], scattering.other[cell],
                                scattering.down[from], scattering.up[from]);
         }
         const Complex once = up[i] / (at.Q[to] + 1.0);
-        sum += at.weight[to] * (1 - at.F[to]) * (at.mu[to] * (leaving[i] - once) - two);
+        sum += at.set.weight[to] * (1 - at.F[to]) * (at.set.mu[to] * (leaving[i] - once) - two);
     }
     return sum + secondOrderTransform(medium, count, rate);
 }

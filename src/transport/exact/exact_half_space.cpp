@@ -7,7 +7,7 @@
 // hyperbola about a cut, where it decays as exp(-kappa r), k = i kappa:
 //   kappa = nu0 cosh(u - i tilt):  R(r) = -(1 / pi^2) Im int_0^inf R^ K0(kappa r) kappa dkappa/du du.
 // The trapezoidal rule converges exponentially there, [Trefethen2014], and the relative error hardly grows with r.
-#include "transport/half_space/exact_half_space.h"
+#include "transport/exact/exact_half_space.h"
 
 #include <fmt/format.h>
 
@@ -18,7 +18,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "transport/half_space/complex_bessel.h"
+#include "transport/exact/complex_bessel.h"
 
 namespace searchlight {
 
