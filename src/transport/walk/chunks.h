@@ -139,7 +139,8 @@ ChunkedResult walkChunks(const ChunkedWalk& job, std::vector<BatchRatios> sums, 
         }
         const auto now = std::chrono::steady_clock::now();
         if (job.control.save && !whole && now - saved > std::chrono::minutes(1)) {
-            job.control.save({plan.size, next, result.collisions, seconds_before, sums});
+            const double seconds = seconds_before + std::chrono::duration<double>(now - begin).count();
+            job.control.save({plan.size, next, result.collisions, seconds, sums});
             saved = now;
         }
     }
