@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -9,6 +10,7 @@
 
 #include "geometry/rays.h"
 #include "scene/mesh.h"
+#include "transport/mesh/flights.h"
 #include "transport/mesh/safe_regions.h"
 #include "transport/mesh/surface_cells.h"
 #include "transport/mesh/triangle_grid.h"
@@ -58,12 +60,18 @@ public:
     /// How far it is to the surface from inside towards wi (unit), mm; nothing when light from there, `distance` away,
     /// is hidden by another part of the body.
     std::optional<double> wayOut(Vec3 position, Vec3 wi, double distance) const;
-    /// Flights that may have left: where from t_min to t_max they cross from inside. Without `cells` theirs are left to
-    /// cellOf().
-    void cross(std::span<const Ray> flights, std::span<Crossing> crossings, bool cells = true) const;
+    /// Flights that may have left: where from t_min to t_max they cross from inside.
+    void cross(std::span<const Ray> flights, std::span<Crossing> crossings) const;
+    /// The same for flights side by side. The cells are left to cellOf().
+    void cross(const Flights& flights, FlightHits& hits) const;
+    void seekCell(std::uint32_t) const {}
+    /// No walk inside is beyond this box.
+    Vec3f low() const { return {-kEndless, -kEndless, -kEndless}; }
+    Vec3f high() const { return {kEndless, kEndless, kEndless}; }
     std::uint32_t cellOf(const Crossing& crossing) const { return cells_.at(crossing.normal); }
 
 private:
+    static constexpr float kEndless = std::numeric_limits<float>::max();
     double radius_;
     SphereCells cells_;
 };
@@ -99,13 +107,20 @@ public:
     bool occluded(const SurfacePoint& point, Vec3 wi, double distance) const;
     std::optional<SurfacePoint> seen(Vec3 origin, Vec3 direction) const;
     std::optional<double> wayOut(Vec3 position, Vec3 wi, double distance) const;
-    void cross(std::span<const Ray> flights, std::span<Crossing> crossings, bool cells = true) const;
+    void cross(std::span<const Ray> flights, std::span<Crossing> crossings) const;
+    void cross(const Flights& flights, FlightHits& hits) const;
+    Vec3f low() const { return low_; }
+    Vec3f high() const { return high_; }
+    /// Asks the memory for what cellOf() will read.
+    void seekCell(std::uint32_t triangle) const { cells_.seek(triangle); }
     std::uint32_t cellOf(const Crossing& crossing) const {
         return cells_.at(crossing.triangle, crossing.u, crossing.v);
     }
 
 private:
     Vec3 positionOf(const RayHit& hit) const;
+    bool beyond(Vec3f end) const;
+    void fill(const RayHit& hit, Vec3 at, Crossing& crossing) const;
     /// What becomes of a flight whose nearest hit is at `at`.
     Crossing::What cross(const Ray& flight, RayHit hit, Vec3 at, Crossing& crossing) const;
     std::optional<RayHit> leaving(const Ray& flight, const RayHit& entered) const;

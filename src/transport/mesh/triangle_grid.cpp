@@ -149,9 +149,10 @@ TriangleGrid buildTriangleGrid(const Mesh& mesh, double cell_mm) {
     std::size_t blocks = 0;
     for (std::size_t at = 0; at < count.size(); ++at) {
         TriangleGrid::Brick& brick = grid.bricks[at / 64];
-        if (at % 64 == 0) brick.begin = static_cast<std::uint32_t>(grid.cells.size());
+        const std::size_t half = at % 64 / 32;
+        if (at % 32 == 0) brick.begin[half] = static_cast<std::uint32_t>(grid.cells.size());
         if (count[at] == 0) continue;
-        brick.full |= std::uint64_t{1} << at % 64;
+        brick.full[half] |= std::uint32_t{1} << at % 32;
         grid.cells.push_back({static_cast<std::uint32_t>(blocks)});
         blocks += (count[at] + TriangleGrid::kBlock - 1) / TriangleGrid::kBlock;
     }

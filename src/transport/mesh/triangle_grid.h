@@ -10,6 +10,7 @@
 #include "base/large_pages.h"
 #include "geometry/rays.h"
 #include "scene/mesh.h"
+#include "transport/mesh/flights.h"
 
 namespace searchlight {
 
@@ -33,12 +34,13 @@ struct TriangleGrid {
 
     /// 4 x 4 x 4 cells: most of them are empty, and walks ask for cells all over the mesh.
     struct alignas(16) Brick {
-        std::uint64_t full = 0;   ///< a bit per cell that holds triangles; x runs fastest
-        std::uint32_t begin = 0;  ///< of those: the first one's place in `cells`
+        std::uint32_t full[2] = {};   ///< a bit per cell that holds triangles; x runs fastest
+        std::uint32_t begin[2] = {};  ///< of those of each half: the first one's place in `cells`
 
         /// The place in `cells` of a cell that holds triangles.
-        std::size_t placeOf(unsigned cell) const {
-            return begin + static_cast<std::size_t>(std::popcount(full & ((std::uint64_t{1} << cell) - 1)));
+        std::size_t placeOf(std::size_t cell) const {
+            const std::uint32_t before = full[cell / 32] & ((std::uint32_t{1} << cell % 32) - 1);
+            return begin[cell / 32] + static_cast<std::size_t>(std::popcount(before));
         }
     };
 
@@ -53,6 +55,8 @@ struct TriangleGrid {
     /// meet nothing before t_min; it may begin anywhere, inside the grid it is fast. `positions` of the hits, mm.
     /// Watertight at shared edges as RayScene is. Targets with FMA agree bit for bit.
     void intersect(std::span<const Ray> flights, std::span<RayHit> hits, std::span<Vec3> positions) const;
+    /// The same for flights side by side; `lost` is left alone. What lies inside is moved inwards by so much.
+    void intersect(const Flights& flights, float nudge_mm, FlightHits& hits) const;
 };
 
 /// Cells of that side, or of the longest extent's 256th part.

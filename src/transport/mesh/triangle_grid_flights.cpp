@@ -15,14 +15,14 @@
 #include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 
+#include "transport/mesh/lane_list-inl.h"
 #include "transport/walk/lane_walk-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace searchlight {
 namespace HWY_NAMESPACE {
 
-constexpr std::size_t kMostFlights = 64;  // at once
-constexpr std::size_t kPairs = 256;
+constexpr std::size_t kPairs = 512;
 
 // A lane per triangle of a block.
 using Corner = hn::CappedTag<float, TriangleGrid::kBlock>;
@@ -46,31 +46,92 @@ HWY_INLINE CornerVec outer(const CornerVec& a, const CornerVec& b) {
             hn::MulSub(a.x, b.y, hn::Mul(a.y, b.x))};
 }
 
+// The difference of two products, which may be nearly the same.
+HWY_INLINE FloatV crossed(FloatV a, FloatV b, FloatV c, FloatV d) {
+    const FloatV rest = hn::Mul(c, d);
+    return hn::Add(hn::MulSub(a, b, rest), hn::NegMulAdd(c, d, rest));
+}
+
 class FlightTest {
 public:
-    FlightTest(const TriangleGrid& grid, const Ray* flights, std::size_t count, RayHit* hits, Vec3* positions)
-        : grid_(grid), flights_(flights), hits_(hits), positions_(positions), count_(count) {}
+    FlightTest(const TriangleGrid& grid, const Flights& flights) : grid_(grid), flights_(flights) {}
 
     void run() {
         const Float d;
         const std::size_t width = hn::Lanes(d);
-        for (std::size_t i = 0; i < count_; ++i) {
-            const Ray& f = flights_[i];
-            ox_[i] = f.origin.x, oy_[i] = f.origin.y, oz_[i] = f.origin.z;
-            dx_[i] = f.t_max * f.direction.x, dy_[i] = f.t_max * f.direction.y, dz_[i] = f.t_max * f.direction.z;
-            begin_[i] = f.t_min / f.t_max;
-            hits_[i] = {std::numeric_limits<float>::infinity()};
+        for (std::size_t at = 0; at < flights_.count; at += width) {
+            hn::Store(hn::Set(d, std::numeric_limits<float>::infinity()), d, t_ + at);
+            pass(at);
         }
-        // The last vector is filled with its last flight, which then counts as one that has ended.
-        for (std::size_t i = count_; i % width != 0; ++i) {
-            ox_[i] = ox_[count_ - 1], oy_[i] = oy_[count_ - 1], oz_[i] = oz_[count_ - 1];
-            dx_[i] = dx_[count_ - 1], dy_[i] = dy_[count_ - 1], dz_[i] = dz_[count_ - 1];
-            begin_[i] = begin_[count_ - 1];
-        }
-        for (std::size_t at = 0; at < count_; at += width) pass(at);
         test();
-        for (std::size_t i = 0; i < count_; ++i)
-            if (std::isfinite(hits_[i].t)) finish(i);
+    }
+
+    // The nearest hit of one flight.
+    bool hit(std::size_t flight, RayHit& hit, Vec3& position) const {
+        hit = {t_[flight]};
+        if (std::isinf(t_[flight])) return false;
+        const auto place = static_cast<std::size_t>(met_[flight]);
+        const TriangleGrid::Block& block = grid_.blocks[place / kWords];
+        const std::size_t lane = place % kWords;
+        const auto corner = [&](std::size_t which) {
+            const float(*c)[TriangleGrid::kBlock] = block.corners + 3 * which;
+            return Vec3{c[0][lane], c[1][lane], c[2][lane]};
+        };
+        const Vec3 first = corner(0), to_second = corner(1) - first, to_third = corner(2) - first;
+        hit.u = u_[flight], hit.v = v_[flight];
+        hit.triangle = block.triangles[lane] & ~TriangleGrid::kLast;
+        hit.normal = toFloat(normalize(searchlight::cross(to_second, to_third)));
+        position = first + static_cast<double>(hit.u) * to_second + static_cast<double>(hit.v) * to_third;
+        return true;
+    }
+
+    // Those of all.
+    void list(float nudge, FlightHits& hits) const {
+        const Float d;
+        const Int di;
+        const std::size_t width = hn::Lanes(d);
+        hits.count = 0;
+        for (std::size_t at = 0; at < flights_.count; at += width) {
+            const FloatM met = hn::And(hn::Lt(hn::Load(d, t_ + at), hn::Set(d, std::numeric_limits<float>::infinity())),
+                                       hn::FirstN(d, flights_.count - at));
+            const Listing listing(met);
+            listing.append(hn::Iota(di, static_cast<std::int32_t>(at)), hits.flight + hits.count);
+            hits.count += listing.count();
+        }
+        for (std::size_t at = 0; at < hits.count; at += width) {
+            // Lanes behind the last hit stand for the first flight's triangle, or what was there before.
+            const auto some = hn::RebindMask(di, hn::FirstN(d, hits.count - at));
+            const IntV flight = hn::IfThenElseZero(some, hn::Load(di, hits.flight + at));
+            const IntV place = hn::IfThenElseZero(some, hn::GatherIndex(di, met_, flight));
+            const auto* const corners = reinterpret_cast<const float*>(grid_.blocks.data());
+            const auto corner = [&](std::size_t i) {
+                return hn::GatherIndex(d, corners + i * TriangleGrid::kBlock, place);
+            };
+            const FloatV ax = corner(0), ay = corner(1), az = corner(2);
+            const FloatV bx = hn::Sub(corner(3), ax), by = hn::Sub(corner(4), ay), bz = hn::Sub(corner(5), az);
+            const FloatV cx = hn::Sub(corner(6), ax), cy = hn::Sub(corner(7), ay), cz = hn::Sub(corner(8), az);
+            const FloatV u = hn::GatherIndex(d, u_, flight), v = hn::GatherIndex(d, v_, flight);
+            FloatV nx = crossed(by, cz, bz, cy), ny = crossed(bz, cx, bx, cz), nz = crossed(bx, cy, by, cx);
+            // Of the largest component, so that no square vanishes.
+            const FloatV largest = hn::Max(hn::Max(hn::Abs(nx), hn::Abs(ny)), hn::Max(hn::Abs(nz), hn::Set(d, 1e-37f)));
+            nx = hn::Div(nx, largest), ny = hn::Div(ny, largest), nz = hn::Div(nz, largest);
+            const FloatV length = hn::Sqrt(hn::MulAdd(nx, nx, hn::MulAdd(ny, ny, hn::Mul(nz, nz))));
+            const FloatV inverse = hn::Div(hn::Set(d, 1.0f), hn::Max(length, hn::Set(d, 1e-37f)));
+            nx = hn::Mul(nx, inverse), ny = hn::Mul(ny, inverse), nz = hn::Mul(nz, inverse);
+            const FloatV x = hn::MulAdd(u, bx, hn::Mul(v, cx)), y = hn::MulAdd(u, by, hn::Mul(v, cy)),
+                         z = hn::MulAdd(u, bz, hn::Mul(v, cz));
+            const FloatV off = hn::Set(d, nudge);
+            hn::Store(u, d, hits.u + at), hn::Store(v, d, hits.v + at);
+            hn::Store(nx, d, hits.nx + at), hn::Store(ny, d, hits.ny + at), hn::Store(nz, d, hits.nz + at);
+            hn::Store(hn::Add(ax, x), d, hits.x + at);
+            hn::Store(hn::Add(ay, y), d, hits.y + at);
+            hn::Store(hn::Add(az, z), d, hits.z + at);
+            hn::Store(hn::Add(ax, hn::NegMulAdd(off, nx, x)), d, hits.inside_x + at);
+            hn::Store(hn::Add(ay, hn::NegMulAdd(off, ny, y)), d, hits.inside_y + at);
+            hn::Store(hn::Add(az, hn::NegMulAdd(off, nz, z)), d, hits.inside_z + at);
+            const auto* const numbers = reinterpret_cast<const std::int32_t*>(grid_.blocks.data()) + kNumbers;
+            hn::Store(hn::And(hn::GatherIndex(di, numbers, place), hn::Set(di, 0x7FFF'FFFF)), di, hits.triangle + at);
+        }
     }
 
 private:
@@ -107,27 +168,20 @@ private:
         }
     };
 
-    static HWY_INLINE std::uint64_t bits(FloatM mask) {
-        std::uint8_t bytes[8] = {};
-        hn::StoreMaskBits(Float(), mask, bytes);
-        return bytes[0] | static_cast<std::uint64_t>(bytes[1]) << 8;
-    }
-
     // Lists the cells with triangles that the flights of a vector pass, each flight's in its order.
     HWY_INLINE void pass(std::size_t at) {
         const Float d;
         const Int di;
         const std::size_t width = hn::Lanes(d);
         const float per_cell = 1 / grid_.cell_mm;
-        FloatV begin = hn::Load(d, begin_ + at);
-        Axis x(ox_ + at, dx_ + at, begin, grid_.origin.x, per_cell, grid_.nx),
-            y(oy_ + at, dy_ + at, begin, grid_.origin.y, per_cell, grid_.ny),
-            z(oz_ + at, dz_ + at, begin, grid_.origin.z, per_cell, grid_.nz);
+        FloatV begin = hn::Load(d, flights_.begin + at);
+        Axis x(flights_.x + at, flights_.dx + at, begin, grid_.origin.x, per_cell, grid_.nx),
+            y(flights_.y + at, flights_.dy + at, begin, grid_.origin.y, per_cell, grid_.ny),
+            z(flights_.z + at, flights_.dz + at, begin, grid_.origin.z, per_cell, grid_.nz);
         const IntV bricks_x = hn::Set(di, grid_.nx >> 2), bricks_y = hn::Set(di, grid_.ny >> 2), three = hn::Set(di, 3);
-        FloatM going = hn::FirstN(d, count_ - at);
+        FloatM going = hn::FirstN(d, flights_.count - at);
+        const IntV flight = hn::Iota(di, static_cast<std::int32_t>(at));
         const auto* const table = reinterpret_cast<const std::int32_t*>(grid_.bricks.data());
-        HWY_ALIGN std::int32_t bricks[16], cells[16];
-        HWY_ALIGN float begins[16], ends[16];
         for (;;) {
             const IntV brick = hn::Add(
                 hn::ShiftRight<2>(x.cell),
@@ -136,27 +190,25 @@ private:
                                                                       hn::ShiftLeft<4>(hn::And(z.cell, three))));
             static_assert(sizeof(TriangleGrid::Brick) == 4 * sizeof(std::int32_t));
             // The half of the brick's bits that holds the cell's.
-            const IntV word = hn::Or(hn::ShiftLeft<2>(brick), hn::ShiftRight<5>(within));
-            const IntV half = hn::GatherIndex(di, table, hn::IfThenElseZero(hn::RebindMask(di, going), word));
+            const IntV word = hn::IfThenElseZero(hn::RebindMask(di, going),
+                                                 hn::Or(hn::ShiftLeft<2>(brick), hn::ShiftRight<5>(within)));
+            const IntV half = hn::GatherIndex(di, table, word);
             const IntV bit = hn::Shl(hn::Set(di, 1), hn::And(within, hn::Set(di, 31)));
             const FloatM full = hn::And(going, hn::RebindMask(d, hn::Ne(hn::And(half, bit), hn::Zero(di))));
             const FloatV next = hn::Min(x.t, hn::Min(y.t, z.t));
-            if (std::uint64_t set = bits(full); set != 0) {
-                hn::Store(brick, di, bricks);
-                hn::Store(within, di, cells);
-                hn::Store(begin, d, begins);
-                hn::Store(next, d, ends);
+            if (!hn::AllFalse(d, full)) {
+                const hn::RebindToUnsigned<Float> du;
+                const IntV before = hn::And(half, hn::Sub(bit, hn::Set(di, 1)));
+                const IntV cell = hn::Add(hn::GatherIndex(di, table + 2, word),
+                                          hn::BitCast(di, hn::PopulationCount(hn::BitCast(du, before))));
                 if (pairs_ + width > kPairs) test();
-                for (; set != 0; set &= set - 1) {
-                    const auto lane = static_cast<std::size_t>(std::countr_zero(set));
-                    pair_flights_[pairs_] = static_cast<std::int32_t>(at + lane);
-                    pair_cells_[pairs_] =
-                        static_cast<std::int32_t>(grid_.bricks[static_cast<std::size_t>(bricks[lane])].placeOf(
-                            static_cast<unsigned>(cells[lane])));
+                const Listing listing(full);
+                listing.append(flight, pair_flights_ + pairs_);
+                listing.append(cell, pair_cells_ + pairs_);
+                listing.append(begin, pair_begins_ + pairs_);
+                listing.append(next, pair_ends_ + pairs_);
+                for (const std::size_t end = pairs_ + listing.count(); pairs_ < end; ++pairs_)
                     hwy::Prefetch(&grid_.cells[static_cast<std::size_t>(pair_cells_[pairs_])]);
-                    pair_begins_[pairs_] = begins[lane];
-                    pair_ends_[pairs_++] = ends[lane];
-                }
             }
             begin = next;
             going = hn::And(going, hn::Lt(begin, hn::Set(d, 1.0f)));
@@ -177,12 +229,13 @@ private:
     // Tests the listed pairs.
     HWY_NOINLINE void test() {
         choose();
-        for (std::size_t i = 0; i < pairs_; ++i) {
-            const Pair& pair = list_[i];
+        for (std::size_t i = 0; i < chosen_; ++i) {
+            const std::int32_t flight = chosen_flights_[i];
             // What a flight has met before the cell begins is nearer than what the cell holds.
-            if (hits_[pair.flight].t < pair.begin) continue;
-            for (const TriangleGrid::Block* block = &grid_.blocks[pair.block];; ++block) {
-                test(pair.flight, *block);
+            if (t_[flight] < chosen_begins_[i]) continue;
+            for (const TriangleGrid::Block* block = &grid_.blocks[static_cast<std::uint32_t>(chosen_blocks_[i])];;
+                 ++block) {
+                test(static_cast<std::size_t>(flight), *block);
                 if ((block->triangles[0] & TriangleGrid::kLast) != 0) break;
             }
         }
@@ -194,18 +247,17 @@ private:
     HWY_INLINE void choose() {
         const Float d;
         const Int di;
-        const std::size_t width = hn::Lanes(d), listed = pairs_;
-        for (std::size_t i = listed; i % width != 0; ++i) {
-            pair_flights_[i] = pair_flights_[listed - 1], pair_cells_[i] = pair_cells_[listed - 1];
-            pair_begins_[i] = pair_ends_[i] = 0;
-        }
-        pairs_ = 0;
+        const std::size_t width = hn::Lanes(d);
+        chosen_ = 0;
         static_assert(sizeof(TriangleGrid::Cell) == 4 * sizeof(std::int32_t));
         const auto* const cells = reinterpret_cast<const std::int32_t*>(grid_.cells.data());
         const auto* const leasts = reinterpret_cast<const float*>(grid_.cells.data());
-        HWY_ALIGN std::int32_t blocks[16];
-        for (std::size_t i = 0; i < listed; i += width) {
-            const IntV flight = hn::Load(di, pair_flights_ + i), cell = hn::ShiftLeft<2>(hn::Load(di, pair_cells_ + i));
+        for (std::size_t i = 0; i < pairs_; i += width) {
+            const FloatM listed = hn::FirstN(d, pairs_ - i);
+            const auto known = [&](const std::int32_t* of) {
+                return hn::IfThenElseZero(hn::RebindMask(di, listed), hn::Load(di, of + i));
+            };
+            const IntV flight = known(pair_flights_), cell = hn::ShiftLeft<2>(known(pair_cells_));
             const IntV normal = hn::GatherIndex(di, cells + 1, cell);
             const FloatV least = hn::GatherIndex(d, leasts + 2, cell);
             const auto component = [&](IntV bits) { return hn::ConvertTo(d, hn::ShiftRight<22>(bits)); };
@@ -216,17 +268,18 @@ private:
                     nx, hn::GatherIndex(d, x, flight),
                     hn::MulAdd(ny, hn::GatherIndex(d, y, flight), hn::Mul(nz, hn::GatherIndex(d, z, flight))));
             };
-            const FloatV from = height(ox_, oy_, oz_), along = height(dx_, dy_, dz_);
+            const FloatV from = height(flights_.x, flights_.y, flights_.z),
+                         along = height(flights_.dx, flights_.dy, flights_.dz);
             const FloatV begin = hn::Load(d, pair_begins_ + i),
                          end = hn::Min(hn::Load(d, pair_ends_ + i), hn::Set(d, 1.0f));
             const FloatV highest = hn::Max(hn::MulAdd(along, begin, from), hn::MulAdd(along, end, from));
-            hn::Store(hn::GatherIndex(di, cells, cell), di, blocks);
-            std::uint64_t set = bits(hn::And(hn::Ge(highest, least), hn::FirstN(d, listed - i)));
-            for (; set != 0; set &= set - 1) {
-                const auto lane = static_cast<std::size_t>(std::countr_zero(set));
-                const auto block = static_cast<std::uint32_t>(blocks[lane]);
-                list_[pairs_++] = {static_cast<std::uint32_t>(pair_flights_[i + lane]), block, pair_begins_[i + lane]};
-                const auto* line = reinterpret_cast<const char*>(&grid_.blocks[block]);
+            const Listing listing(hn::And(hn::Ge(highest, least), listed));
+            listing.append(flight, chosen_flights_ + chosen_);
+            listing.append(hn::GatherIndex(di, cells, cell), chosen_blocks_ + chosen_);
+            listing.append(begin, chosen_begins_ + chosen_);
+            for (const std::size_t last = chosen_ + listing.count(); chosen_ < last; ++chosen_) {
+                const auto* line =
+                    reinterpret_cast<const char*>(&grid_.blocks[static_cast<std::uint32_t>(chosen_blocks_[chosen_])]);
                 for (std::size_t at = 0; at < sizeof(TriangleGrid::Block); at += 64) hwy::Prefetch(line + at);
             }
         }
@@ -234,11 +287,13 @@ private:
 
     // A line passes through a triangle when it passes all edges on the same side; the side of an edge, the volume of
     // the edge and the line, is the same but for its sign from both of its triangles, so that nothing slips between.
-    HWY_INLINE void test(std::uint32_t flight, const TriangleGrid::Block& block) {
+    HWY_INLINE void test(std::size_t flight, const TriangleGrid::Block& block) {
         const Corner d;
         const std::size_t width = hn::Lanes(d);
-        const CornerVec origin{hn::Set(d, ox_[flight]), hn::Set(d, oy_[flight]), hn::Set(d, oz_[flight])};
-        const CornerVec along{hn::Set(d, dx_[flight]), hn::Set(d, dy_[flight]), hn::Set(d, dz_[flight])};
+        const CornerVec origin{hn::Set(d, flights_.x[flight]), hn::Set(d, flights_.y[flight]),
+                               hn::Set(d, flights_.z[flight])};
+        const CornerVec along{hn::Set(d, flights_.dx[flight]), hn::Set(d, flights_.dy[flight]),
+                              hn::Set(d, flights_.dz[flight])};
         for (std::size_t i = 0; i < TriangleGrid::kBlock; i += width) {
             const auto corner = [&](std::size_t which) {
                 const float(*c)[TriangleGrid::kBlock] = block.corners + 3 * which;
@@ -262,64 +317,57 @@ private:
             HWY_ALIGN float ts[TriangleGrid::kBlock], us[TriangleGrid::kBlock], vs[TriangleGrid::kBlock],
                 ws[TriangleGrid::kBlock];
             hn::Store(t, d, ts), hn::Store(u, d, us), hn::Store(v, d, vs), hn::Store(w, d, ws);
-            RayHit& hit = hits_[flight];
             for (unsigned set = bytes[0]; set != 0; set &= set - 1) {
                 const auto lane = static_cast<std::size_t>(std::countr_zero(set));
-                if (!(ts[lane] < hit.t)) continue;
+                if (!(ts[lane] < t_[flight])) continue;
                 const float sum = us[lane] + vs[lane] + ws[lane], scale = sum != 0 ? 1 / sum : 0;
-                hit.t = ts[lane];
-                met_[flight] = {&block, i + lane};
-                hit.u = std::clamp(us[lane] * scale, 0.0f, 1.0f), hit.v = std::clamp(vs[lane] * scale, 0.0f, 1.0f);
+                t_[flight] = ts[lane];
+                met_[flight] = static_cast<std::int32_t>(
+                    static_cast<std::size_t>(&block - grid_.blocks.data()) * kWords + i + lane);
+                u_[flight] = std::clamp(us[lane] * scale, 0.0f, 1.0f),
+                v_[flight] = std::clamp(vs[lane] * scale, 0.0f, 1.0f);
             }
         }
     }
 
-    // What is asked of the nearest hit alone.
-    HWY_INLINE void finish(std::size_t flight) {
-        const auto [block, lane] = met_[flight];
-        const auto corner = [&, block = block, lane = lane](std::size_t which) {
-            const float(*c)[TriangleGrid::kBlock] = block->corners + 3 * which;
-            return Vec3{c[0][lane], c[1][lane], c[2][lane]};
-        };
-        RayHit& hit = hits_[flight];
-        const Vec3 first = corner(0), to_second = corner(1) - first, to_third = corner(2) - first;
-        hit.triangle = block->triangles[lane] & ~TriangleGrid::kLast;
-        hit.normal = toFloat(normalize(searchlight::cross(to_second, to_third)));
-        hit.t *= flights_[flight].t_max;
-        positions_[flight] = first + static_cast<double>(hit.u) * to_second + static_cast<double>(hit.v) * to_third;
-    }
-
-    struct Met {
-        const TriangleGrid::Block* block;
-        std::size_t lane;
-    };
-    struct Pair {
-        std::uint32_t flight;
-        std::uint32_t block;  // first of the cell
-        float begin;          // where the flight enters it
-    };
+    static constexpr std::size_t kWords = sizeof(TriangleGrid::Block) / sizeof(float);
+    static constexpr std::size_t kNumbers = offsetof(TriangleGrid::Block, triangles) / sizeof(float);
 
     const TriangleGrid& grid_;
-    const Ray* flights_;
-    RayHit* hits_;
-    Vec3* positions_;
-    std::size_t count_, pairs_ = 0;
-    // In multiples of t_max.
-    alignas(64) float ox_[kMostFlights], oy_[kMostFlights], oz_[kMostFlights];
-    alignas(64) float dx_[kMostFlights], dy_[kMostFlights], dz_[kMostFlights];
-    alignas(64) float begin_[kMostFlights];  // where the flights may first meet something
+    const Flights& flights_;
+    std::size_t pairs_ = 0, chosen_ = 0;
+    // Of each flight the nearest hit: in multiples of the flight, and where in the blocks its triangle is, in floats.
+    alignas(64) float t_[Flights::kRoom], u_[Flights::kRoom], v_[Flights::kRoom];
+    alignas(64) std::int32_t met_[Flights::kRoom];
     // Flights and the cells with triangles that they pass, from where to where; then those of them to be tested.
-    alignas(64) std::int32_t pair_flights_[kPairs], pair_cells_[kPairs];
-    alignas(64) float pair_begins_[kPairs], pair_ends_[kPairs];
-    Pair list_[kPairs];
-    Met met_[kMostFlights];
+    alignas(64) std::int32_t pair_flights_[kPairs + 16], pair_cells_[kPairs + 16];
+    alignas(64) float pair_begins_[kPairs + 16], pair_ends_[kPairs + 16];
+    alignas(64) std::int32_t chosen_flights_[kPairs + 16], chosen_blocks_[kPairs + 16];
+    alignas(64) float chosen_begins_[kPairs + 16];
 };
 
 void intersectGrid(const TriangleGrid& grid, const Ray* flights, std::size_t count, RayHit* hits, Vec3* positions) {
-    for (std::size_t first = 0; first < count; first += kMostFlights) {
-        const std::size_t now = std::min(kMostFlights, count - first);
-        FlightTest(grid, flights + first, now, hits + first, positions + first).run();
+    Flights some;
+    for (std::size_t first = 0; first < count; first += Flights::kMost) {
+        some.count = std::min(Flights::kMost, count - first);
+        for (std::size_t i = 0; i < some.count; ++i) {
+            const Ray& f = flights[first + i];
+            some.x[i] = f.origin.x, some.y[i] = f.origin.y, some.z[i] = f.origin.z;
+            some.dx[i] = f.t_max * f.direction.x, some.dy[i] = f.t_max * f.direction.y;
+            some.dz[i] = f.t_max * f.direction.z;
+            some.begin[i] = f.t_min / f.t_max;
+        }
+        FlightTest test(grid, some);
+        test.run();
+        for (std::size_t i = 0; i < some.count; ++i)
+            if (test.hit(i, hits[first + i], positions[first + i])) hits[first + i].t *= flights[first + i].t_max;
     }
+}
+
+void intersectFlights(const TriangleGrid& grid, const Flights& flights, float nudge, FlightHits& hits) {
+    FlightTest test(grid, flights);
+    test.run();
+    test.list(nudge, hits);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -330,10 +378,15 @@ HWY_AFTER_NAMESPACE();
 namespace searchlight {
 
 HWY_EXPORT(intersectGrid);
+HWY_EXPORT(intersectFlights);
 
 void TriangleGrid::intersect(std::span<const Ray> flights, std::span<RayHit> hits, std::span<Vec3> positions) const {
     assert(flights.size() == hits.size() && flights.size() == positions.size());
     HWY_DYNAMIC_DISPATCH(intersectGrid)(*this, flights.data(), flights.size(), hits.data(), positions.data());
+}
+
+void TriangleGrid::intersect(const Flights& flights, float nudge_mm, FlightHits& hits) const {
+    HWY_DYNAMIC_DISPATCH(intersectFlights)(*this, flights, nudge_mm, hits);
 }
 
 }  // namespace searchlight
