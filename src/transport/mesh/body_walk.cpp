@@ -200,15 +200,14 @@ private:
     // fills its vector.
     struct LaneList {
         HWY_ALIGN std::int32_t places[kGroups * kLanes];
-        std::uint8_t lanes[kGroups * kLanes];  // group and lane
+        std::uint16_t lanes[kGroups * kLanes];  // group and lane
         std::size_t count = 0, filled = 0;
 
         LaneList(const Group* groups, std::uint64_t Group::*set) {
-            static_assert(sizeof(Group) % sizeof(float) == 0 && kGroups * kLanes <= 256);
             for (std::size_t group = 0; group < kGroups; ++group)
                 for (std::uint64_t bits = groups[group].*set; bits != 0; bits &= bits - 1) {
                     const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
-                    lanes[count] = static_cast<std::uint8_t>(group * kLanes + lane);
+                    lanes[count] = static_cast<std::uint16_t>(group * kLanes + lane);
                     places[count++] = static_cast<std::int32_t>(group * (sizeof(Group) / sizeof(float)) + lane);
                 }
             for (filled = count; filled % hn::Lanes(Float()) != 0; ++filled) places[filled] = places[count - 1];
@@ -548,9 +547,24 @@ private:
         group.tag[lane] = entry.tag;
         if (medium_.ways > 0) group.way[lane] = static_cast<std::int32_t>(random_.next() & 0xFFFF);
         // Absorption is drawn at once for the whole walk: it survives n collisions with probability albedo^n.
-        if (collisions_per_log_ > 0)
-            group.survives[lane] =
-                static_cast<std::int32_t>(std::min(-std::log(random_.uniform()) * collisions_per_log_, 0x1p30));
+        if (collisions_per_log_ > 0) group.survives[lane] = survives();
+    }
+
+    // How many collisions a walk survives; drawn for many at once.
+    std::int32_t survives() {
+        if (survives_left_ == 0) {
+            const Int di;
+            for (std::size_t i = 0; i < kLanes; i += 2) {
+                const std::uint64_t bits = random_.next();
+                survives_[i] = static_cast<std::int32_t>(bits),
+                survives_[i + 1] = static_cast<std::int32_t>(bits >> 32);
+            }
+            const FloatV scale = hn::Set(Float(), static_cast<float>(collisions_per_log_));
+            for (std::size_t at = 0; at < kLanes; at += hn::Lanes(di))
+                hn::Store(collisionsSurvived(hn::Load(di, survives_ + at), scale), di, survives_ + at);
+            survives_left_ = kLanes;
+        }
+        return survives_[--survives_left_];
     }
 
     const Body& body_;
@@ -573,6 +587,8 @@ private:
     alignas(64) float direction_[3][FlightHits::kRoom], reflected_[3][FlightHits::kRoom];  // of the flights that hit
     alignas(64) std::int32_t draw_[FlightHits::kRoom];
     std::uint16_t exits_[Flights::kMost];
+    alignas(64) std::int32_t survives_[kLanes];
+    std::size_t survives_left_ = 0;
 };
 
 template <class Body, class Regions>

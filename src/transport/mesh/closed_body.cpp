@@ -248,6 +248,14 @@ bool MeshBody::occluded(const SurfacePoint& point, Vec3 wi, double distance) con
     return rays_.occluded({toFloat(point.position + nudge_ * point.normal), toFloat(wi), 0, reach});
 }
 
+void MeshBody::occluded(std::span<const Shadow> shadows, std::span<std::uint8_t> hidden) const {
+    std::vector<Ray> rays;
+    rays.reserve(shadows.size());
+    for (const auto& [point, wi, distance] : shadows)
+        rays.push_back({toFloat(point.position + nudge_ * point.normal), toFloat(wi), 0, static_cast<float>(distance)});
+    rays_.occluded(rays, hidden.first(rays.size()), true);
+}
+
 std::optional<SurfacePoint> MeshBody::seen(Vec3 origin, Vec3 direction) const {
     const auto hit = rays_.intersect({toFloat(origin), toFloat(direction)});
     if (!hit) return {};

@@ -1,6 +1,7 @@
 // Bodies that walks stay inside of: a sphere, and what a closed mesh encloses. Lengths are mm.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -21,6 +22,13 @@ namespace searchlight {
 struct SurfacePoint {
     Vec3 position;
     Vec3 normal;  ///< geometric, outward, unit
+};
+
+/// A question: does the body hide what lies `distance` away in direction wi (unit, above the surface)?
+struct Shadow {
+    SurfacePoint point;
+    Vec3 wi;
+    double distance = 0;
 };
 
 /// Where a flight meets the surface from inside.
@@ -55,6 +63,10 @@ public:
     Vec3f below(const SurfacePoint& point) const { return toFloat(point.position); }
     /// Whether the body hides what lies `distance` away in direction wi (unit, above the surface).
     bool occluded(const SurfacePoint&, Vec3, double) const { return false; }
+    /// The same for many, which are near one another: 1 or 0 for each.
+    void occluded(std::span<const Shadow> shadows, std::span<std::uint8_t> hidden) const {
+        std::fill_n(hidden.begin(), shadows.size(), std::uint8_t{0});
+    }
     /// Where a ray from outside meets the surface, its direction unit.
     std::optional<SurfacePoint> seen(Vec3 origin, Vec3 direction) const;
     /// How far it is to the surface from inside towards wi (unit), mm; nothing when light from there, `distance` away,
@@ -105,6 +117,7 @@ public:
     SurfacePoint pointAt(double u, double v, double w) const;
     Vec3f below(const SurfacePoint& point) const;
     bool occluded(const SurfacePoint& point, Vec3 wi, double distance) const;
+    void occluded(std::span<const Shadow> shadows, std::span<std::uint8_t> hidden) const;
     std::optional<SurfacePoint> seen(Vec3 origin, Vec3 direction) const;
     std::optional<double> wayOut(Vec3 position, Vec3 wi, double distance) const;
     void cross(std::span<const Ray> flights, std::span<Crossing> crossings) const;
