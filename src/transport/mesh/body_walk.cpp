@@ -164,6 +164,7 @@ private:
         const Lanes& before = from(group);
         Lanes& after = to(group);
         std::uint64_t stay = 0, ends = 0, deep = 0;
+        std::size_t opened = open_.count;
         for (std::size_t at = 0; at < kLanes; at += width) {
             Pack pack = load(before, at);
             const FloatV x = pack.x, y = pack.y, z = pack.z, reach = hn::Load(d, group.reach + at);
@@ -172,19 +173,20 @@ private:
             const FloatM stays = region.holds(pack.x, pack.y, pack.z);
             stay |= bitsOf(stays) << at;
             const Listing leaving(hn::AndNot(stays, hn::Gt(reach, hn::Zero(d))));
-            leaving.append(x, open_.x + open_.count);
-            leaving.append(y, open_.y + open_.count);
-            leaving.append(z, open_.z + open_.count);
-            leaving.append(pack.x, open_.end_x + open_.count);
-            leaving.append(pack.y, open_.end_y + open_.count);
-            leaving.append(pack.z, open_.end_z + open_.count);
-            leaving.append(hn::Iota(Int(), static_cast<std::int32_t>(which * kLanes + at)), open_.lane + open_.count);
-            open_.count += leaving.count();
+            leaving.append(x, open_.x + opened);
+            leaving.append(y, open_.y + opened);
+            leaving.append(z, open_.z + opened);
+            leaving.append(pack.x, open_.end_x + opened);
+            leaving.append(pack.y, open_.end_y + opened);
+            leaving.append(pack.z, open_.end_z + opened);
+            leaving.append(hn::Iota(Int(), static_cast<std::int32_t>(which * kLanes + at)), open_.lane + opened);
+            opened += leaving.count();
             deep |= bitsOf(hn::Lt(region.away(pack.x, pack.y, pack.z), hn::Load(d, group.regions.deep + at))) << at;
             scatter<kIsotropic>(pack, asymmetry, half_qq);
             store(pack, after, at);
             ends |= bitsOf(hn::RebindMask(d, hn::Gt(pack.collisions, hn::Load(Int(), group.survives + at)))) << at;
         }
+        open_.count = opened;
         group.collided = group.walking;
         group.ends = ends;
         group.deep = deep & stay & group.walking & ~ends;
@@ -229,7 +231,7 @@ private:
             for (auto& of : places_)
                 for (std::size_t i = 0; i < open_.count; i += width)
                     hn::Store(regions_.seekRegion(hn::Load(di, of + i)), di, of + i);
-            flights_.count = 0;
+            std::size_t kept_open = 0;
             for (std::size_t i = 0; i < open_.count; i += width) {
                 const auto take = [i](const float* of) { return hn::Load(Float(), of + i); };
                 const FloatV px = take(open_.x), py = take(open_.y), pz = take(open_.z);
@@ -263,7 +265,7 @@ private:
                 // A flight without length, whose parts are no numbers, is cleared.
                 const FloatM open = hn::And(listed, hn::AndNot(hn::Or(by_end, by_begin), hn::Lt(first, last)));
                 const Listing listing(open);
-                const std::size_t to = flights_.count;
+                const std::size_t to = kept_open;
                 listing.append(px, flights_.x + to);
                 listing.append(py, flights_.y + to);
                 listing.append(pz, flights_.z + to);
@@ -272,8 +274,9 @@ private:
                 listing.append(hn::Mul(last, dz), flights_.dz + to);
                 listing.append(hn::Div(first, last), flights_.begin + to);
                 listing.append(lane, lanes_ + to);
-                flights_.count += listing.count();
+                kept_open += listing.count();
             }
+            flights_.count = kept_open;
         }
     }
 

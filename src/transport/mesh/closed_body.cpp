@@ -218,7 +218,7 @@ MeshBody::MeshBody(const Mesh& mesh, const MeshBodyOptions& options)
     const double reach = std::min(options.shortest_mfp, longest / kReachAlong);
     regions_ = options.regions ? buildSafeRegions(mesh_, cell, reach, options.threads)
                                : unknownRegion(toDouble(low), toDouble(high));
-    if (options.regions || options.grid_alone)
+    if ((options.regions || options.grid_alone) && mesh_.triangles.size() <= TriangleGrid::kMostTriangles)
         grid_ = buildTriangleGrid(mesh_, gridCell(mesh_, area, options.shortest_mfp));
     const auto end = [&](float origin, std::int32_t cells) {
         return origin + static_cast<float>(cells) * regions_.cell_mm;

@@ -14,7 +14,7 @@ struct EntryLanes {
     alignas(64) std::int32_t bits[kMost] = {};                         ///< random: of what is mirrored
     std::size_t count = 0;
 
-    std::uint64_t enters = 0;  ///< a bit for each: crosses the surface
+    std::uint64_t enters = 0;                                          ///< a bit for each: crosses the surface
     alignas(64) float dx[kMost] = {}, dy[kMost] = {}, dz[kMost] = {};  ///< refracted, unit; of those that enter
 };
 

@@ -9,7 +9,7 @@ namespace searchlight {
 
 /// Straight flights, mm. Up to a vector behind the last one may be read.
 struct Flights {
-    static constexpr std::size_t kMost = 512, kRoom = kMost + 16;
+    static constexpr std::size_t kMost = 256, kRoom = kMost + 16;
 
     alignas(64) float x[kRoom] = {}, y[kRoom] = {}, z[kRoom] = {};     ///< where they begin
     alignas(64) float dx[kRoom] = {}, dy[kRoom] = {}, dz[kRoom] = {};  ///< to the end of what is to be tested

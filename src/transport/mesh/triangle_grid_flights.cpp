@@ -70,16 +70,11 @@ public:
     bool hit(std::size_t flight, RayHit& hit, Vec3& position) const {
         hit = {t_[flight]};
         if (std::isinf(t_[flight])) return false;
-        const auto place = static_cast<std::size_t>(met_[flight]);
-        const TriangleGrid::Block& block = grid_.blocks[place / kWords];
-        const std::size_t lane = place % kWords;
-        const auto corner = [&](std::size_t which) {
-            const float(*c)[TriangleGrid::kBlock] = block.corners + 3 * which;
-            return Vec3{c[0][lane], c[1][lane], c[2][lane]};
-        };
+        const auto [block, lane] = metBy(flight);
+        const auto corner = [&, block = block, lane = lane](std::size_t i) { return toDouble(block->corner(lane, i)); };
         const Vec3 first = corner(0), to_second = corner(1) - first, to_third = corner(2) - first;
         hit.u = u_[flight], hit.v = v_[flight];
-        hit.triangle = block.triangles[lane] & ~TriangleGrid::kLast;
+        hit.triangle = block->number(lane);
         hit.normal = toFloat(normalize(searchlight::cross(to_second, to_third)));
         position = first + static_cast<double>(hit.u) * to_second + static_cast<double>(hit.v) * to_third;
         return true;
@@ -98,19 +93,23 @@ public:
             listing.append(hn::Iota(di, static_cast<std::int32_t>(at)), hits.flight + hits.count);
             hits.count += listing.count();
         }
+        HWY_ALIGN float corners[9][16] = {};
         for (std::size_t at = 0; at < hits.count; at += width) {
-            // Lanes behind the last hit stand for the first flight's triangle, or what was there before.
-            const auto some = hn::RebindMask(di, hn::FirstN(d, hits.count - at));
-            const IntV flight = hn::IfThenElseZero(some, hn::Load(di, hits.flight + at));
-            const IntV place = hn::IfThenElseZero(some, hn::GatherIndex(di, met_, flight));
-            const auto* const corners = reinterpret_cast<const float*>(grid_.blocks.data());
-            const auto corner = [&](std::size_t i) {
-                return hn::GatherIndex(d, corners + i * TriangleGrid::kBlock, place);
-            };
+            for (std::size_t i = 0; i < width && at + i < hits.count; ++i) {
+                const auto flight = static_cast<std::size_t>(hits.flight[at + i]);
+                const auto [block, lane] = metBy(flight);
+                for (std::size_t k = 0; k < 3; ++k) {
+                    const Vec3f p = block->corner(lane, k);
+                    corners[3 * k][i] = p.x, corners[3 * k + 1][i] = p.y, corners[3 * k + 2][i] = p.z;
+                }
+                hits.triangle[at + i] = static_cast<std::int32_t>(block->number(lane));
+                hits.u[at + i] = u_[flight], hits.v[at + i] = v_[flight];
+            }
+            const auto corner = [&](std::size_t i) { return hn::Load(d, corners[i]); };
             const FloatV ax = corner(0), ay = corner(1), az = corner(2);
             const FloatV bx = hn::Sub(corner(3), ax), by = hn::Sub(corner(4), ay), bz = hn::Sub(corner(5), az);
             const FloatV cx = hn::Sub(corner(6), ax), cy = hn::Sub(corner(7), ay), cz = hn::Sub(corner(8), az);
-            const FloatV u = hn::GatherIndex(d, u_, flight), v = hn::GatherIndex(d, v_, flight);
+            const FloatV u = hn::Load(d, hits.u + at), v = hn::Load(d, hits.v + at);
             FloatV nx = crossed(by, cz, bz, cy), ny = crossed(bz, cx, bx, cz), nz = crossed(bx, cy, by, cx);
             // Of the largest component, so that no square vanishes.
             const FloatV largest = hn::Max(hn::Max(hn::Abs(nx), hn::Abs(ny)), hn::Max(hn::Abs(nz), hn::Set(d, 1e-37f)));
@@ -121,7 +120,6 @@ public:
             const FloatV x = hn::MulAdd(u, bx, hn::Mul(v, cx)), y = hn::MulAdd(u, by, hn::Mul(v, cy)),
                          z = hn::MulAdd(u, bz, hn::Mul(v, cz));
             const FloatV off = hn::Set(d, nudge);
-            hn::Store(u, d, hits.u + at), hn::Store(v, d, hits.v + at);
             hn::Store(nx, d, hits.nx + at), hn::Store(ny, d, hits.ny + at), hn::Store(nz, d, hits.nz + at);
             hn::Store(hn::Add(ax, x), d, hits.x + at);
             hn::Store(hn::Add(ay, y), d, hits.y + at);
@@ -129,8 +127,6 @@ public:
             hn::Store(hn::Add(ax, hn::NegMulAdd(off, nx, x)), d, hits.inside_x + at);
             hn::Store(hn::Add(ay, hn::NegMulAdd(off, ny, y)), d, hits.inside_y + at);
             hn::Store(hn::Add(az, hn::NegMulAdd(off, nz, z)), d, hits.inside_z + at);
-            const auto* const numbers = reinterpret_cast<const std::int32_t*>(grid_.blocks.data()) + kNumbers;
-            hn::Store(hn::And(hn::GatherIndex(di, numbers, place), hn::Set(di, 0x7FFF'FFFF)), di, hits.triangle + at);
         }
     }
 
@@ -233,11 +229,9 @@ private:
             const std::int32_t flight = chosen_flights_[i];
             // What a flight has met before the cell begins is nearer than what the cell holds.
             if (t_[flight] < chosen_begins_[i]) continue;
-            for (const TriangleGrid::Block* block = &grid_.blocks[static_cast<std::uint32_t>(chosen_blocks_[i])];;
-                 ++block) {
-                test(static_cast<std::size_t>(flight), *block);
-                if ((block->triangles[0] & TriangleGrid::kLast) != 0) break;
-            }
+            const auto first = static_cast<std::uint32_t>(chosen_blocks_[i]);
+            for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(chosen_counts_[i]); ++k)
+                test(static_cast<std::size_t>(flight), first + k);
         }
         pairs_ = 0;
     }
@@ -258,8 +252,8 @@ private:
                 return hn::IfThenElseZero(hn::RebindMask(di, listed), hn::Load(di, of + i));
             };
             const IntV flight = known(pair_flights_), cell = hn::ShiftLeft<2>(known(pair_cells_));
-            const IntV normal = hn::GatherIndex(di, cells + 1, cell);
-            const FloatV least = hn::GatherIndex(d, leasts + 2, cell);
+            const IntV normal = hn::GatherIndex(di, cells + 2, cell);
+            const FloatV least = hn::GatherIndex(d, leasts + 3, cell);
             const auto component = [&](IntV bits) { return hn::ConvertTo(d, hn::ShiftRight<22>(bits)); };
             const FloatV nx = component(normal), ny = component(hn::ShiftLeft<10>(normal)),
                          nz = component(hn::ShiftLeft<20>(normal));
@@ -276,6 +270,7 @@ private:
             const Listing listing(hn::And(hn::Ge(highest, least), listed));
             listing.append(flight, chosen_flights_ + chosen_);
             listing.append(hn::GatherIndex(di, cells, cell), chosen_blocks_ + chosen_);
+            listing.append(hn::GatherIndex(di, cells + 1, cell), chosen_counts_ + chosen_);
             listing.append(begin, chosen_begins_ + chosen_);
             for (const std::size_t last = chosen_ + listing.count(); chosen_ < last; ++chosen_) {
                 const auto* line =
@@ -285,9 +280,43 @@ private:
         }
     }
 
+    // The corners of triangles of a block, by the vertices that they share.
+    class Corners {
+    public:
+        HWY_INLINE Corners(const TriangleGrid::Block& block, std::size_t first) : block_(block), first_(first) {}
+
+        HWY_INLINE CornerVec at(std::size_t which, const CornerVec& origin) const {
+            const hn::RebindToSigned<Corner> di;
+            const hn::Rebind<std::uint8_t, Corner> bytes;
+            const auto vertex = hn::PromoteTo(di, hn::LoadU(bytes, block_.corners[which] + first_));
+            return CornerVec{take(block_.x, vertex), take(block_.y, vertex), take(block_.z, vertex)} - origin;
+        }
+
+    private:
+        HWY_INLINE CornerV take(const float* of, hn::Vec<hn::RebindToSigned<Corner>> vertex) const {
+            const Corner d;
+#if HWY_TARGET <= HWY_AVX2
+            // Twelve vertices in two vectors that overlap.
+            const hn::RebindToSigned<Corner> di;
+            constexpr std::size_t beyond = TriangleGrid::kVertices - TriangleGrid::kBlock;
+            const auto seven = hn::Set(di, 7);
+            const auto behind = hn::Sub(vertex, hn::Set(di, static_cast<std::int32_t>(beyond)));
+            const auto low = hn::TableLookupLanes(hn::LoadU(d, of), hn::IndicesFromVec(d, hn::And(vertex, seven)));
+            const auto high =
+                hn::TableLookupLanes(hn::LoadU(d, of + beyond), hn::IndicesFromVec(d, hn::And(behind, seven)));
+            return hn::IfThenElse(hn::RebindMask(d, hn::Gt(vertex, seven)), high, low);
+#else
+            return hn::GatherIndex(d, of, vertex);
+#endif
+        }
+
+        const TriangleGrid::Block& block_;
+        std::size_t first_;
+    };
+
     // A line passes through a triangle when it passes all edges on the same side; the side of an edge, the volume of
     // the edge and the line, is the same but for its sign from both of its triangles, so that nothing slips between.
-    HWY_INLINE void test(std::size_t flight, const TriangleGrid::Block& block) {
+    HWY_INLINE void test(std::size_t flight, std::uint32_t place) {
         const Corner d;
         const std::size_t width = hn::Lanes(d);
         const CornerVec origin{hn::Set(d, flights_.x[flight]), hn::Set(d, flights_.y[flight]),
@@ -295,10 +324,8 @@ private:
         const CornerVec along{hn::Set(d, flights_.dx[flight]), hn::Set(d, flights_.dy[flight]),
                               hn::Set(d, flights_.dz[flight])};
         for (std::size_t i = 0; i < TriangleGrid::kBlock; i += width) {
-            const auto corner = [&](std::size_t which) {
-                const float(*c)[TriangleGrid::kBlock] = block.corners + 3 * which;
-                return CornerVec{hn::Load(d, c[0] + i), hn::Load(d, c[1] + i), hn::Load(d, c[2] + i)} - origin;
-            };
+            const Corners corners(grid_.blocks[place], i);
+            const auto corner = [&](std::size_t which) { return corners.at(which, origin); };
             const CornerVec a = corner(0), b = corner(1), c = corner(2);
             const CornerVec e0 = c - a, e1 = a - b, e2 = b - c;
             const CornerV u = inner(outer(e0, c + a), along), v = inner(outer(e1, a + b), along),
@@ -322,27 +349,31 @@ private:
                 if (!(ts[lane] < t_[flight])) continue;
                 const float sum = us[lane] + vs[lane] + ws[lane], scale = sum != 0 ? 1 / sum : 0;
                 t_[flight] = ts[lane];
-                met_[flight] = static_cast<std::int32_t>(
-                    static_cast<std::size_t>(&block - grid_.blocks.data()) * kWords + i + lane);
+                met_[flight] = place * TriangleGrid::kBlock + static_cast<std::uint32_t>(i + lane);
                 u_[flight] = std::clamp(us[lane] * scale, 0.0f, 1.0f),
                 v_[flight] = std::clamp(vs[lane] * scale, 0.0f, 1.0f);
             }
         }
     }
 
-    static constexpr std::size_t kWords = sizeof(TriangleGrid::Block) / sizeof(float);
-    static constexpr std::size_t kNumbers = offsetof(TriangleGrid::Block, triangles) / sizeof(float);
+    struct Met {
+        const TriangleGrid::Block* block;
+        std::size_t lane;
+    };
+    Met metBy(std::size_t flight) const {
+        return {&grid_.blocks[met_[flight] / TriangleGrid::kBlock], met_[flight] % TriangleGrid::kBlock};
+    }
 
     const TriangleGrid& grid_;
     const Flights& flights_;
     std::size_t pairs_ = 0, chosen_ = 0;
-    // Of each flight the nearest hit: in multiples of the flight, and where in the blocks its triangle is, in floats.
+    // Of each flight the nearest hit: in multiples of the flight, and the place of its triangle in the blocks.
     alignas(64) float t_[Flights::kRoom], u_[Flights::kRoom], v_[Flights::kRoom];
-    alignas(64) std::int32_t met_[Flights::kRoom];
+    std::uint32_t met_[Flights::kRoom];
     // Flights and the cells with triangles that they pass, from where to where; then those of them to be tested.
     alignas(64) std::int32_t pair_flights_[kPairs + 16], pair_cells_[kPairs + 16];
     alignas(64) float pair_begins_[kPairs + 16], pair_ends_[kPairs + 16];
-    alignas(64) std::int32_t chosen_flights_[kPairs + 16], chosen_blocks_[kPairs + 16];
+    alignas(64) std::int32_t chosen_flights_[kPairs + 16], chosen_blocks_[kPairs + 16], chosen_counts_[kPairs + 16];
     alignas(64) float chosen_begins_[kPairs + 16];
 };
 
