@@ -105,6 +105,12 @@ Mesh alongCurve(const Mesh& mesh) {
 
 }  // namespace
 
+void requireResolved(double longest_mm, double mfp_mm) {
+    if (!(mfp_mm > 0 && longest_mm <= kLargestMfp * mfp_mm))
+        throw inputError(fmt::format("the body is {:.3g} mean free paths long", longest_mm / mfp_mm),
+                         "up to 1e4: beyond, single precision does not resolve them");
+}
+
 Ball::Ball(double radius_mm, double cell_area_mm2) : radius_(radius_mm) {
     if (!(radius_mm > 0 && radius_mm <= 1e9))
         throw inputError("the radius of a sphere is " + numberText(radius_mm), "above 0, up to 1e9 mm");
@@ -183,9 +189,7 @@ MeshBody::MeshBody(const Mesh& mesh, const MeshBodyOptions& options)
     }
     const Vec3 extent = toDouble(high) - toDouble(low);
     const double longest = std::max({extent.x, extent.y, extent.z});
-    if (!(options.shortest_mfp > 0 && longest <= kLargestMfp * options.shortest_mfp))
-        throw inputError(fmt::format("the mesh is {:.3g} mean free paths long", longest / options.shortest_mfp),
-                         "up to 1e4: beyond, single precision does not resolve them");
+    requireResolved(longest, options.shortest_mfp);
     for (std::size_t bucket = 0; bucket <= area_to_.size(); ++bucket) {
         const double target = area * static_cast<double>(bucket) / static_cast<double>(area_to_.size());
         const auto found = std::ranges::upper_bound(area_to_, target * (1 - 1e-12));

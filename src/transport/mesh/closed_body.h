@@ -34,6 +34,9 @@ struct Crossing {
     float u = 0, v = 0;          ///< barycentric, as RayHit has them
 };
 
+/// Throws an input Error for a body so large against the mean free path that single precision would not do.
+void requireResolved(double longest_mm, double mfp_mm);
+
 /// A sphere about the origin.
 class Ball {
 public:
@@ -80,7 +83,7 @@ struct MeshBodyOptions {
 class MeshBody {
 public:
     /// Throws an input Error for a mesh that encloses nothing: open, inconsistently oriented, inside out, without
-    /// volume; and for one so large against the mean free path that single precision would not do.
+    /// volume; and that of requireResolved.
     MeshBody(const Mesh& mesh, const MeshBodyOptions& options);
 
     double area() const { return area_to_.back(); }

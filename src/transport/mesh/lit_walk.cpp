@@ -114,8 +114,11 @@ private:
                     direction = normalize(direction - 2 * cosine * crossing.normal);
                     continue;
                 }
-                if (lights_.collects(scatters))
-                    source_.leave(entry.tag, entry.weight, direction, crossing, chunk_.cells);
+                if (lights_.collects(scatters)) {
+                    left_.clear();
+                    source_.leave(entry.tag, 1, direction, crossing, left_);
+                    for (const CellExit& exit : left_) collected += static_cast<double>(exit.weight);
+                }
                 break;
             }
             ++chunk_.collisions;
@@ -125,6 +128,7 @@ private:
             direction = scattered(direction, medium_.g, random_);
             scatters = true;
         }
+        // One exit for all: the error is that of walks, and what one of them finds in two ways is not independent.
         if (collected > 0) chunk_.cells.push_back({entry.tag, static_cast<float>(collected) * entry.weight});
     }
 
@@ -143,6 +147,7 @@ private:
     CameraSource<Body>& source_;
     SplitMix64 random_;
     BodyChunk chunk_;
+    std::vector<CellExit> left_;
 };
 
 template <class Body>
