@@ -15,8 +15,8 @@ namespace searchlight {
 class SavedWalks {
 public:
     /// One state per walk of the job (a channel, a slab). `problem` is everything that the sums depend on but the
-    /// number of walks. With --resume reads the file where it exists; throws an input Error when it holds another
-    /// problem, naming the first difference, or cannot be read.
+    /// number of walks. With --resume reads the file where it exists, on the machine of the process that writes it;
+    /// throws an input Error when it holds another problem, naming the first difference, or cannot be read.
     SavedWalks(const Options& options, const Job& job, Json problem, std::size_t states);
 
     /// How walk `i` goes on: shared by all processes, stopped by --until-error, kept in the file.
@@ -30,6 +30,7 @@ public:
 
 private:
     void read();
+    void share();
 
     std::string path_;
     Json problem_;
