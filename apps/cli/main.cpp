@@ -85,6 +85,7 @@ int runArguments(int argc, char** argv) {
         const JobResult result = run(*arguments.job, engine, observer);
         observer.finish();
         if (rank() == 0) print(arguments.json ? result.json + "\n" : result.text);
+        if (!result.failure.empty()) throw inputError(result.failure);
         if (result.interrupted) return exitCode(ErrorKind::interrupted);
         return result.passed ? 0 : 1;
     };
@@ -94,8 +95,10 @@ int runArguments(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    std::signal(SIGINT, interrupt);
-    std::signal(SIGTERM, interrupt);
+    struct sigaction action = {};
+    action.sa_handler = interrupt;  // without SA_RESTART: a pipe that nobody writes is not waited for again
+    sigaction(SIGINT, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
     std::signal(SIGPIPE, SIG_IGN);
     Ranks ranks(argc, argv);
     const auto fail = [&](int code, std::string_view message) {
@@ -109,5 +112,7 @@ int main(int argc, char** argv) {
         return fail(exitCode(error.kind), error.what());
     } catch (const std::bad_alloc&) {
         return fail(exitCode(ErrorKind::input), "out of memory");
+    } catch (const std::exception& error) {
+        return fail(exitCode(ErrorKind::input), error.what());
     }
 }
