@@ -6,6 +6,8 @@
 #include <bit>
 #include <cassert>
 #include <cmath>
+#include <cstring>
+#include <numeric>
 
 #include "base/error.h"
 
@@ -148,6 +150,37 @@ void RayScene::intersect(std::span<const Ray> rays, std::span<RayHit> results, b
                       impl_->normals[triangle]};
         }
     });
+}
+
+std::size_t RayScene::intersect(const RayColumns& rays, std::span<ListedHit> hits) const {
+    assert(rays.count <= hits.size());
+    RTCIntersectContext context = makeContext(false);
+    RTCRayHit16 packet;
+    std::fill_n(packet.ray.time, 16, 0.0f);
+    std::fill_n(packet.ray.mask, 16, ~0u);
+    std::fill_n(packet.ray.flags, 16, 0u);
+    std::iota(packet.ray.id, packet.ray.id + 16, 0u);
+    std::size_t found = 0;
+    for (std::size_t first = 0; first < rays.count; first += 16) {
+        const std::size_t lanes = std::min<std::size_t>(16, rays.count - first);
+        alignas(64) int valid[16];
+        for (std::size_t lane = 0; lane < 16; ++lane) valid[lane] = lane < lanes ? -1 : 0;
+        const auto copy = [first](float* to, const float* from) { std::memcpy(to, from + first, 16 * sizeof(float)); };
+        copy(packet.ray.org_x, rays.x), copy(packet.ray.org_y, rays.y), copy(packet.ray.org_z, rays.z);
+        copy(packet.ray.dir_x, rays.dx), copy(packet.ray.dir_y, rays.dy), copy(packet.ray.dir_z, rays.dz);
+        copy(packet.ray.tnear, rays.t_min);
+        std::fill_n(packet.ray.tfar, 16, rays.t_max);
+        std::fill_n(packet.hit.geomID, 16, RTC_INVALID_GEOMETRY_ID);
+        rtcIntersect16(valid, impl_->scene.get(), &context, &packet);
+        for (unsigned lane = 0; lane < lanes; ++lane) {
+            if (packet.hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID) continue;
+            const std::uint32_t triangle = packet.hit.primID[lane];
+            hits[found++] = {
+                static_cast<std::uint32_t>(first) + lane,
+                {packet.ray.tfar[lane], triangle, packet.hit.u[lane], packet.hit.v[lane], impl_->normals[triangle]}};
+        }
+    }
+    return found;
 }
 
 void RayScene::occluded(std::span<const Ray> rays, std::span<std::uint8_t> results, bool coherent) const {

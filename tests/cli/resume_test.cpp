@@ -1,4 +1,4 @@
-// References that stop, go on, and share their walks between processes.
+// References that stop and go on.
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
@@ -131,37 +131,6 @@ TEST_F(Program, AReferenceStopsAtTheErrorAskedFor) {
     EXPECT_LT(document["walks"], 1e6);
     EXPECT_LE(document["diffuse"]["stderr"][0], 0.01 * document["diffuse"]["mean"][0].get<double>());
     EXPECT_EQ(run(half_space + "--until-error 2").exit_code, 2);
-}
-
-TEST_F(Program, ProcessesShareTheWalksOfAReference) {
-    if (std::string_view(SEARCHLIGHT_MPIRUN).empty()) GTEST_SKIP() << "built without SEARCHLIGHT_MPI";
-    const std::string mpirun = SEARCHLIGHT_MPIRUN " --allow-run-as-root --oversubscribe -n 3";
-    const Output one = run(half_space + "--walks 1e6"), three = run(half_space + "--walks 1e6", mpirun);
-    ASSERT_EQ(three.exit_code, 0) << three.err;
-    EXPECT_EQ(numbers(three.out), numbers(one.out));
-    for (const std::string body : {"sphere", "mesh statue --scale 6 --radiance"}) {
-        const std::string reference = "reference " + body + " --material marble --walks 5e3 --size 16x16 --json";
-        const Output alone = run(reference), shared = run(reference, mpirun);
-        ASSERT_EQ(shared.exit_code, 0) << shared.err;
-        json from_one = json::parse(alone.out), from_three = json::parse(shared.out);
-        for (json* document : {&from_one, &from_three}) document->erase("seconds");
-        EXPECT_EQ(from_three, from_one) << body;
-    }
-    writeFile(folder() / "layers.json",
-              R"({"format": "searchlight-layers/1", "n_above": 1, "n_below": 1, "layers": [
-                  {"n": 1.5, "sigma_a": 0.05, "sigma_s": 2, "g": 0, "thickness_mm": 1}]})");
-    const std::string slab = "reference slab --layers layers.json --walks 1e5 --json";
-    const Output alone = run(slab), shared = run(slab, mpirun);
-    ASSERT_EQ(shared.exit_code, 0) << shared.err;
-    json from_one = json::parse(alone.out), from_three = json::parse(shared.out);
-    EXPECT_EQ(from_one.at("estimator"), "best");
-    for (json* document : {&from_one, &from_three}) document->erase("seconds");
-    EXPECT_EQ(from_three, from_one);
-    const Output wrong = run(half_space + "--walks 0", mpirun);
-    EXPECT_NE(wrong.exit_code, 0);
-    EXPECT_THAT(wrong.err, HasSubstr("searchlight: "));
-    const Output other = run("models --json", mpirun);
-    EXPECT_TRUE(json::accept(other.out)) << "one process answers, not three";
 }
 
 }  // namespace

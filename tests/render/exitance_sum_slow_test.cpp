@@ -73,7 +73,7 @@ TEST_P(ExitanceSumOn, KeepsTheErrorForAnyMaterialLightAndSize) {
         Observer observer;
         const PointCloud cloud = samplePoints(object.mesh, {.count = point_count}, observer);
         const std::vector<Vec3f> receivers = pixelsOf(cloud, longest);
-        const std::size_t stride = receivers.size() / 80;
+        const std::size_t stride = receivers.size() / 500;
         const std::vector<Vec3f> compared = everyNth<Vec3f>(receivers, stride);
         PointTree tree(cloud);
         for (const char* material : {"skin1", "marble", "ketchup", "whole_milk"}) {
@@ -91,7 +91,8 @@ TEST_P(ExitanceSumOn, KeepsTheErrorForAnyMaterialLightAndSize) {
                     const std::vector<Rgbf> sum = sumExitance(tree, table, receivers, options, &statistics);
                     const SumError found = errorOf(everyNth<Rgbf>(sum, stride), truth);
                     EXPECT_LE(statistics.error_bound, error);
-                    // 80 receivers know their error to a tenth; the table's own is 1e-4.
+                    // 500 receivers know their error to some 5 %, where few beside a shadow's edge have most of it, too
+                    // (80 were up to 25 % off); the table's own is 1e-4.
                     EXPECT_LE(found.rmse, 1.1 * error + 1e-4);
                     EXPECT_LE(found.largest, statistics.largest_error_bound + 1e-3);
                 }

@@ -287,11 +287,13 @@ TEST(BodyRadiance, OfANarrowDiscIsWhatWalksMeet) {
     EXPECT_EQ(asked.mirrored, 0);
 }
 
-TEST(BodyRadiance, StatesItsErrors) {
+// By the scatter over seeds, of a wide light, and of a wide and a parallel one: these are found in two ways by one
+// walk.
+void expectErrorsStated(const std::vector<Light>& found) {
     const Ball ball(1, 0.5);
     const Medium medium = channelMedium(0.3, 3, 0, 1.3);
     Scene scene;
-    scene.lights = {DirectionalLight{.direction = {1, 2, 3}, .angle_deg = 60}};
+    scene.lights = found;
     const LightSampler lights(scene, placeObject(scene));
     const CameraRays camera = farCamera({1, 0, 0}, 100, 1.2, 4);
     Observer observer;
@@ -312,6 +314,13 @@ TEST(BodyRadiance, StatesItsErrors) {
         ratio += (squares[i] - sum[i] * sum[i] / seeds) / (seeds - 1) / stated[i] / 16;
     // 80 seeds x 16 pixels know the ratio to 4 %.
     EXPECT_NEAR(ratio, 1, 0.16);
+}
+
+TEST(BodyRadiance, StatesItsErrors) { expectErrorsStated({DirectionalLight{.direction = {1, 2, 3}, .angle_deg = 60}}); }
+
+TEST(BodyRadiance, StatesItsErrorsUnderLightsOfBothKinds) {
+    expectErrorsStated({DirectionalLight{.direction = {1, 2, 3}, .irradiance = {0.3, 0.3, 0.3}, .angle_deg = 60},
+                        DirectionalLight{.direction = {1, 2, 3}, .irradiance = {0.05, 0.05, 0.05}}});
 }
 
 TEST(BodyRadiance, DoesNotDependOnThreads) {

@@ -347,6 +347,26 @@ TEST(MeshBody, RefusesMoreMeanFreePathsThanFloatResolves) {
     EXPECT_THROW(MeshBody(boxMesh({1, 1, 1}), {.shortest_mfp = 0}), Error);
 }
 
+// Two boxes that overlap: refused as soon as that shows, not after all walks.
+TEST(BodyReference, RefusesAMeshThatCrossesItselfEarly) {
+    class Latest : public Observer {
+    public:
+        void progress(std::string_view, std::uint64_t done, std::uint64_t total, std::string_view) override {
+            part = std::max(part.load(), static_cast<double>(done) / static_cast<double>(total));
+        }
+        std::atomic<double> part = 0;
+    };
+    Mesh mesh = boxMesh({1, 1, 1});
+    const Mesh other = boxMesh({1, 1, 1});
+    const auto count = static_cast<std::uint32_t>(mesh.positions.size());
+    for (const Vec3f& p : other.positions) mesh.positions.push_back({p.x + 0.9f, p.y + 0.8f, p.z + 0.7f});
+    for (const auto& t : other.triangles) mesh.triangles.push_back({t[0] + count, t[1] + count, t[2] + count});
+    const MeshBody body(mesh, {.cell_area_mm2 = 1, .shortest_mfp = 0.3});
+    Latest observer;
+    EXPECT_THROW(walkBody(body, channelMedium(0.1, 3), 0, UniformLight{}, {.walks = 100'000'000}, observer), Error);
+    EXPECT_LT(observer.part, 0.1);
+}
+
 TEST(BodyReference, RefusesWhatCannotBeWalked) {
     Observer observer;
     const Ball ball(1, 1);
@@ -357,6 +377,7 @@ TEST(BodyReference, RefusesWhatCannotBeWalked) {
     const LightSampler lights(scene, placeObject(scene));
     EXPECT_THROW(walkBody(ball, channelMedium(0, 1), 1, &lights, {}, observer), Error) << "no light in this channel";
     EXPECT_THROW(Ball(0, 1), Error);
+    EXPECT_THROW(walkBody(Ball(5001, 1e6), channelMedium(0, 1), 0, UniformLight{}, {}, observer), Error) << "float";
 }
 
 }  // namespace

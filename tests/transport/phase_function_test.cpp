@@ -74,6 +74,25 @@ TEST(PhaseFunction, ScattersOnceAsTheIntegralOfTheTableSays) {
     judge.expectAgreement();
 }
 
+// A peak, and behind it 1e5 bins that share 2 light quanta in a thousand: each is rarer than single precision can
+// tell of numbers up to 1e5.
+TEST(PhaseFunction, KeepsWhatIsRareInATableOfManyRows) {
+    constexpr int bins = 99'999;
+    constexpr double behind = 0.002, albedo = 0.25;
+    PhaseFunction phase;
+    for (int i = 0; i <= bins; ++i) {
+        phase.angles_deg.push_back(i == bins ? 180 : 180.0 * i / bins);
+        phase.values.push_back(i == 0 ? 1 : 0);
+    }
+    const double peak = 0.5 * (1 - std::cos(std::numbers::pi / bins));
+    for (int i = bins / 2 + 1; i <= bins; ++i) phase.values[static_cast<std::size_t>(i)] = peak * behind / (1 - behind);
+    Judge judge;
+    // 2 pi int p(-mu) mu / (1 + mu) dmu where p is even behind: 1 - log 2 of what is there, times two.
+    judge.compare("even behind", walk(phase, 1 - albedo, albedo, infinity, 1'000'000).R_single,
+                  albedo * behind * (1 - std::numbers::ln2));
+    judge.expectAgreement();
+}
+
 // Van de Hulst's slabs, tests/data/transport/slabs.csv; linear pieces of half a degree change R and T by 1e-5.
 TEST(PhaseFunction, TablesOfKnownPhaseFunctionsGiveTheirSlabs) {
     const double g = 0.75;

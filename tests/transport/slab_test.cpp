@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 #include <hwy/highway.h>
 
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <tuple>
 
 #include "base/csv.h"
 #include "base/error.h"
@@ -14,6 +16,7 @@
 #include "instruction_sets.h"
 #include "judge.h"
 #include "transport/half_space/half_space.h"
+#include "transport/slab/slab_entry.h"
 #include "transport/slab/slab_walk.h"
 
 namespace searchlight {
@@ -247,6 +250,64 @@ TEST(Slab, GlassShiftsAnObliqueBeam) {
     EXPECT_EQ(absorbed(2), 0);
     EXPECT_GT(absorbed(3), 0);
     EXPECT_NEAR(absorbed(1) + absorbed(3), r.A.mean, 1e-3);
+}
+
+// Against beams that are followed one by one, those that do not enter thrown away.
+TEST(EntryShift, IsThatOfBeamsThatEnter) {
+    const std::vector<EntryShift::Surface> surfaces{{0.3, 1}, {0.6, 10}, {0.2, 0.1}, {0.5, 0}};
+    const auto followed = [&](SplitMix64& random) {
+        for (;;) {
+            double shift = 0;
+            int next = 0;
+            for (bool down = true;;) {
+                if (random.uniform() < surfaces[static_cast<std::size_t>(next)].reflectance) down = !down;
+                next += down ? 1 : -1;
+                if (next < 0) break;
+                if (next == 4) return shift;
+                shift += surfaces[static_cast<std::size_t>(down ? next - 1 : next)].shift_mm;
+            }
+        }
+    };
+    const EntryShift entry(surfaces);
+    ASSERT_TRUE(entry.moves());
+    constexpr int count = 400'000;
+    SplitMix64 random = streamOf(1, 0), other = streamOf(1, 1);
+    Estimate a, b, a2, b2;
+    Judge judge;
+    const auto moments = [](const auto& draw) {
+        std::array<double, 3> sums{};  // of the first, second and fourth power
+        for (int i = 0; i < count; ++i) {
+            const double s = draw();
+            sums[0] += s, sums[1] += s * s, sums[2] += s * s * s * s;
+        }
+        for (double& sum : sums) sum /= count;
+        return std::pair{Estimate{sums[0], std::sqrt((sums[1] - sums[0] * sums[0]) / count), count},
+                         Estimate{sums[1], std::sqrt((sums[2] - sums[1] * sums[1]) / count), count}};
+    };
+    std::tie(a, a2) = moments([&] { return entry.draw(random); });
+    std::tie(b, b2) = moments([&] { return followed(other); });
+    judge.compare("mean", {a.mean - b.mean, std::hypot(a.standard_error, b.standard_error), count}, 0);
+    judge.compare("mean square", {a2.mean - b2.mean, std::hypot(a2.standard_error, b2.standard_error), count}, 0);
+    judge.expectAgreement();
+}
+
+TEST(EntryShift, EndsCloseToTotalReflection) {
+    SplitMix64 random = streamOf(1, 0);
+    double sum = 0;
+    const EntryShift entry(std::vector<EntryShift::Surface>{{0.5, 1}, {1 - 1e-15, 0}});
+    constexpr int count = 100'000;
+    for (int i = 0; i < count; ++i) sum += entry.draw(random);
+    EXPECT_NEAR(sum / count, 3, 0.05);  // 1 + 2 r / (1 - r)
+}
+
+// What the lower surface reflects totally is specular, whatever rounding makes of the sum.
+TEST(Slab, NothingEntersThroughGlassUnderTotalReflection) {
+    for (int i = 0; i < 400; ++i) {
+        const double angle = 46 + 0.1 * i;  // from 1.4 into 1: beyond 45.6 degrees
+        const SlabResult r = walk({1.4, 1, {{1.5, 0, 0, 0, 1}, {1, 0, 1, 0, 1}}, angle}, options(100));
+        ASSERT_EQ(r.specular, 1) << angle;
+        ASSERT_EQ(r.R.mean, 0) << angle;
+    }
 }
 
 // Scattered light adds to the beam just below the surface, and fades with depth.

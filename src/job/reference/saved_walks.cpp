@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <span>
 
 #include "base/error.h"
 #include "base/files.h"
@@ -120,8 +121,14 @@ SavedWalks::SavedWalks(const Options& options, const Job& job, Json problem, std
     problem_["command"] = job.command;
     problem_["seed"] = job.seed;
     if (path_.empty()) return;
-    if (std::error_code error; std::filesystem::exists(path_, error)) read();
-    if (rank() == 0) checkWritable(path_);
+    try {
+        if (std::error_code error; rank() == 0 && std::filesystem::exists(path_, error)) read();
+        if (rank() == 0) checkWritable(path_);
+    } catch (const Error&) {
+        shareFromFirst({});
+        throw;
+    }
+    if (rankCount() > 1) share();
 }
 
 void SavedWalks::read() {
@@ -149,6 +156,43 @@ void SavedWalks::read() {
         throw text.error("/states", fmt::format("should hold {} walks", states_.size()), "a file that --resume wrote");
     for (std::size_t i = 0; i < states_.size(); ++i)
         if (!states[i].is_null()) states_[i] = readState(text, fmt::format("/states/{}", i), states[i]);
+}
+
+// The others may be on machines that do not have the file.
+void SavedWalks::share() {
+    const auto number = [](std::uint64_t count) { return static_cast<double>(count); };
+    std::vector<double> values{1};
+    for (const WalkState& state : states_) {
+        values.insert(values.end(), {number(state.chunk_size), number(state.chunks), number(state.walks),
+                                     number(state.collisions), state.seconds, number(state.sums.size())});
+        for (const BatchRatios& sums : state.sums) {
+            const std::vector<double> packed = sums.pack();
+            values.push_back(number(packed.size()));
+            values.insert(values.end(), packed.begin(), packed.end());
+        }
+    }
+    values = shareFromFirst(values);
+    if (values.empty()) throw inputError(fmt::format("{} was not read by the first process", path_));
+    if (rank() == 0) return;
+    std::span<const double> rest = std::span<const double>(values).subspan(1);
+    const auto take = [&](std::size_t count) {
+        const std::span<const double> taken = rest.first(count);
+        rest = rest.subspan(count);
+        return taken;
+    };
+    const auto whole = [&] { return static_cast<std::uint64_t>(take(1).front()); };
+    for (WalkState& state : states_) {
+        state.chunk_size = whole();
+        state.chunks = whole();
+        state.walks = whole();
+        state.collisions = whole();
+        state.seconds = take(1).front();
+        state.sums.clear();
+        for (std::uint64_t left = whole(); left > 0; --left) {
+            const std::span<const double> packed = take(static_cast<std::size_t>(whole()));
+            state.sums.emplace_back(packed.size() / 3 - 1).unpack(packed);
+        }
+    }
 }
 
 WalkControl SavedWalks::control(std::size_t i) {

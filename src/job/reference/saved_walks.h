@@ -15,8 +15,9 @@ namespace searchlight {
 class SavedWalks {
 public:
     /// One state per walk of the job (a channel, a slab). `problem` is everything that the sums depend on but the
-    /// number of walks. With --resume reads the file where it exists; throws an input Error when it holds another
-    /// problem, naming the first difference, or cannot be read or written. `observer` outlives this.
+    /// number of walks. With --resume reads the file where it exists, on the machine of the process that writes it;
+    /// throws an input Error when it holds another problem, naming the first difference, or cannot be read or written.
+    /// `observer` outlives this.
     SavedWalks(const Options& options, const Job& job, Json problem, std::size_t states, Observer& observer);
 
     /// How walk `i` goes on: shared by all processes, stopped by --until-error, kept in the file.
@@ -31,6 +32,7 @@ public:
 private:
     void read();
     void write() const;
+    void share();
 
     std::string path_;
     Observer& observer_;

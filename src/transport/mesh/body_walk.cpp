@@ -30,6 +30,7 @@
 #define HWY_TARGET_INCLUDE "transport/mesh/body_walk.cpp"
 #include <hwy/foreach_target.h>
 
+#include "transport/mesh/lane_list-inl.h"
 #include "transport/mesh/lane_regions-inl.h"
 #include "transport/mesh/large_steps-inl.h"
 #include "transport/walk/lane_walk-inl.h"
@@ -52,7 +53,8 @@ struct Group {
     };
 
     std::uint64_t walking = 0;    // a bit per lane
-    std::uint64_t uncleared = 0;  // flights that may have met the surface
+    std::uint64_t uncleared = 0;  // flights that may have met the surface, and
+    std::uint64_t met = 0;        // that have
     std::uint64_t ends = 0;       // absorbed
     std::uint64_t deep = 0;       // where a large step fits
     std::uint64_t collided = 0;   // at a collision after the step, and
@@ -66,8 +68,36 @@ struct Group {
     alignas(64) std::int32_t survives[kLanes];
     float weight[kLanes];
     std::uint32_t tag[kLanes];
-    std::int32_t way[kLanes];          // of the next large step
-    float begin[kLanes], end[kLanes];  // of an uncleared flight: the part that no region holds
+    std::int32_t way[kLanes];  // of the next large step
+};
+
+constexpr std::size_t kStride = sizeof(Group) / sizeof(float);
+static_assert(sizeof(Group) % sizeof(float) == 0 && kGroups * kLanes <= Flights::kMost);
+
+// Lanes of all groups, group after group, by their place after those of the first, in floats.
+HWY_INLINE IntV placesOf(IntV lanes) {
+    const Int di;
+    const IntV group = hn::ShiftRight<6>(lanes);
+    return hn::Add(hn::Mul(group, hn::Set(di, static_cast<std::int32_t>(kStride - kLanes))), lanes);
+}
+static_assert(kLanes == 64);
+
+// Flights that have left the regions that they began in, of all groups: together they fill vectors.
+struct OpenFlights {
+    static constexpr std::size_t kRoom = Flights::kRoom;
+
+    alignas(64) float x[kRoom] = {}, y[kRoom] = {}, z[kRoom] = {};
+    alignas(64) float end_x[kRoom] = {}, end_y[kRoom] = {}, end_z[kRoom] = {};
+    alignas(64) std::int32_t lane[kRoom] = {};
+    std::size_t count = 0;
+
+    // Fills the last vector with the last flight: what is written for it is written twice.
+    void fill() {
+        if (count == 0) return;
+        for (float* of : {x, y, z, end_x, end_y, end_z})
+            hn::StoreU(hn::Set(Float(), of[count - 1]), Float(), of + count);
+        hn::StoreU(hn::Set(Int(), lane[count - 1]), Int(), lane + count);
+    }
 };
 
 template <class Body, class Regions, bool kIsotropic>
@@ -84,8 +114,6 @@ public:
         for (Group& group : groups_) {
             seed(group.lanes[0], seeds);
             for (auto& plane : group.regions.planes) std::ranges::fill(plane.offset, 1.0f);
-            std::ranges::fill(group.begin, 0.0f);
-            std::ranges::fill(group.end, 1.0f);
             std::ranges::fill(group.regions.deep, deepAtFirst());
         }
         random_ = SplitMix64(seeds.next());
@@ -99,8 +127,13 @@ public:
             for (std::size_t lane = 0; lane < kLanes; ++lane) start(group, group.lanes[0], lane);
         const auto walks = [](const Group& group) { return group.walking != 0; };
         while (std::ranges::any_of(groups_, walks)) {
-            for (Group& group : groups_) advance(group);
-            if (looksUp()) lookUp();
+            open_.count = 0;
+            for (std::size_t group = 0; group < kGroups; ++group) advance(group);
+            open_.fill();
+            if (looksUp())
+                lookUp();
+            else
+                testAll();
             cross();
             if (asks_ != 0) ask();
             step();
@@ -121,7 +154,8 @@ private:
     Lanes& from(Group& group) const { return group.lanes[now_]; }
     Lanes& to(Group& group) const { return group.lanes[now_ ^ 1]; }
 
-    HWY_INLINE void advance(Group& group) {
+    HWY_INLINE void advance(std::size_t which) {
+        Group& group = groups_[which];
         const Float d;
         const std::size_t width = hn::Lanes(d);
         const double g = medium_.g;
@@ -130,17 +164,29 @@ private:
         const Lanes& before = from(group);
         Lanes& after = to(group);
         std::uint64_t stay = 0, ends = 0, deep = 0;
+        std::size_t opened = open_.count;
         for (std::size_t at = 0; at < kLanes; at += width) {
             Pack pack = load(before, at);
-            fly(pack, hn::Mul(exponential(pack.random.next()), hn::Load(d, group.reach + at)));
+            const FloatV x = pack.x, y = pack.y, z = pack.z, reach = hn::Load(d, group.reach + at);
+            fly(pack, hn::Mul(exponential(pack.random.next()), reach));
             const Region region = group.regions.load(at);
-            stay |= bitsOf(region.holds(pack.x, pack.y, pack.z)) << at;
+            const FloatM stays = region.holds(pack.x, pack.y, pack.z);
+            stay |= bitsOf(stays) << at;
+            const Listing leaving(hn::AndNot(stays, hn::Gt(reach, hn::Zero(d))));
+            leaving.append(x, open_.x + opened);
+            leaving.append(y, open_.y + opened);
+            leaving.append(z, open_.z + opened);
+            leaving.append(pack.x, open_.end_x + opened);
+            leaving.append(pack.y, open_.end_y + opened);
+            leaving.append(pack.z, open_.end_z + opened);
+            leaving.append(hn::Iota(Int(), static_cast<std::int32_t>(which * kLanes + at)), open_.lane + opened);
+            opened += leaving.count();
             deep |= bitsOf(hn::Lt(region.away(pack.x, pack.y, pack.z), hn::Load(d, group.regions.deep + at))) << at;
             scatter<kIsotropic>(pack, asymmetry, half_qq);
             store(pack, after, at);
             ends |= bitsOf(hn::RebindMask(d, hn::Gt(pack.collisions, hn::Load(Int(), group.survives + at)))) << at;
         }
-        group.uncleared = group.walking & ~stay;
+        open_.count = opened;
         group.collided = group.walking;
         group.ends = ends;
         group.deep = deep & stay & group.walking & ~ends;
@@ -156,54 +202,44 @@ private:
     // fills its vector.
     struct LaneList {
         HWY_ALIGN std::int32_t places[kGroups * kLanes];
-        std::uint8_t lanes[kGroups * kLanes];  // group and lane
+        std::uint16_t lanes[kGroups * kLanes];  // group and lane
         std::size_t count = 0, filled = 0;
 
         LaneList(const Group* groups, std::uint64_t Group::*set) {
-            static_assert(sizeof(Group) % sizeof(float) == 0 && kGroups * kLanes <= 256);
             for (std::size_t group = 0; group < kGroups; ++group)
                 for (std::uint64_t bits = groups[group].*set; bits != 0; bits &= bits - 1) {
                     const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
-                    lanes[count] = static_cast<std::uint8_t>(group * kLanes + lane);
+                    lanes[count] = static_cast<std::uint16_t>(group * kLanes + lane);
                     places[count++] = static_cast<std::int32_t>(group * (sizeof(Group) / sizeof(float)) + lane);
                 }
             for (filled = count; filled % hn::Lanes(Float()) != 0; ++filled) places[filled] = places[count - 1];
         }
     };
 
-    static HWY_INLINE std::uint64_t bitsOf(FloatM mask) {
-        std::uint8_t bits[8] = {};
-        hn::StoreMaskBits(Float(), mask, bits);
-        return bits[0] | static_cast<std::uint64_t>(bits[1]) << 8;
-    }
-
-    // Finds regions for walks that left theirs, and so clears flights. What is read is asked for one pass ahead.
+    // Finds regions for walks that left theirs, and lists the flights that these do not clear. What is read is asked
+    // for one pass ahead.
     HWY_NOINLINE void lookUp() {
         if constexpr (Regions::kLooksUp) {
             const Float d;
             const Int di;
             const std::size_t width = hn::Lanes(d);
-            const LaneList list(groups_, &Group::uncleared);
-            HWY_ALIGN std::int32_t places[2][kGroups * kLanes];
-            const Lanes &before = from(groups_[0]), &after = to(groups_[0]);
-            for (std::size_t i = 0; i < list.filled; i += width) {
-                const IntV at = hn::Load(di, list.places + i);
-                for (const auto& [lanes, to] : {std::pair(&before, places[0]), std::pair(&after, places[1])})
-                    hn::Store(regions_.seek(hn::GatherIndex(d, lanes->x, at), hn::GatherIndex(d, lanes->y, at),
-                                            hn::GatherIndex(d, lanes->z, at)),
-                              di, to + i);
+            for (std::size_t i = 0; i < open_.count; i += width) {
+                const auto take = [i](const float* of) { return hn::Load(Float(), of + i); };
+                hn::Store(regions_.seek(take(open_.x), take(open_.y), take(open_.z)), di, places_[0] + i);
+                hn::Store(regions_.seek(take(open_.end_x), take(open_.end_y), take(open_.end_z)), di, places_[1] + i);
             }
-            for (auto& of : places)
-                for (std::size_t i = 0; i < list.filled; i += width)
+            for (auto& of : places_)
+                for (std::size_t i = 0; i < open_.count; i += width)
                     hn::Store(regions_.seekRegion(hn::Load(di, of + i)), di, of + i);
-            for (std::size_t i = 0; i < list.filled; i += width) {
-                const IntV at = hn::Load(di, list.places + i);
-                const auto take = [&](const float* of) { return hn::GatherIndex(d, of, at); };
-                const FloatV px = take(before.x), py = take(before.y), pz = take(before.z);
-                const FloatV qx = take(after.x), qy = take(after.y), qz = take(after.z);
+            std::size_t kept_open = 0;
+            for (std::size_t i = 0; i < open_.count; i += width) {
+                const auto take = [i](const float* of) { return hn::Load(Float(), of + i); };
+                const FloatV px = take(open_.x), py = take(open_.y), pz = take(open_.z);
+                const FloatV qx = take(open_.end_x), qy = take(open_.end_y), qz = take(open_.end_z);
+                const FloatM listed = hn::FirstN(d, open_.count - i);
                 // Preferably the region of where the flight ends: the next one begins there.
-                const Region end = regions_.at(qx, qy, qz, hn::Load(di, places[1] + i)),
-                             begin = regions_.at(px, py, pz, hn::Load(di, places[0] + i));
+                const Region end = regions_.at(qx, qy, qz, hn::Load(di, places_[1] + i)),
+                             begin = regions_.at(px, py, pz, hn::Load(di, places_[0] + i));
                 const FloatM useful = end.holds(qx, qy, qz), by_end = hn::And(useful, end.holds(px, py, pz));
                 const FloatM known = begin.holds(px, py, pz), by_begin = hn::And(known, begin.holds(qx, qy, qz));
                 // Two convex regions that meet on the flight hold all of it. What rounding does to it is far below what
@@ -213,9 +249,6 @@ private:
                 const FloatV last =
                     hn::Sub(hn::Set(d, 1.0f),
                             hn::IfThenElseZero(useful, end.reaches(qx, qy, qz, hn::Neg(dx), hn::Neg(dy), hn::Neg(dz))));
-                const FloatM by_both = hn::Ge(first, last);
-                hn::ScatterIndex(first, d, groups_[0].begin, at);
-                hn::ScatterIndex(last, d, groups_[0].end, at);
                 const auto choose = [&](FloatV a, FloatV b) { return hn::IfThenElse(useful, a, b); };
                 Region kept{choose(end.x, begin.x),
                             choose(end.y, begin.y),
@@ -227,15 +260,42 @@ private:
                     kept.planes[j] = {choose(e.nx, b.nx), choose(e.ny, b.ny), choose(e.nz, b.nz),
                                       choose(e.offset, b.offset)};
                 }
-                groups_[0].regions.scatter(kept, at, hn::Set(d, leastStep()));
-                std::uint64_t cleared = bitsOf(hn::Or(by_both, hn::Or(by_end, by_begin)));
-                if (i + width > list.count) cleared &= (std::uint64_t{1} << (list.count - i)) - 1;
-                for (; cleared != 0; cleared &= cleared - 1) {
-                    const unsigned lane = list.lanes[i + static_cast<std::size_t>(std::countr_zero(cleared))];
-                    groups_[lane / kLanes].uncleared &= ~(std::uint64_t{1} << lane % kLanes);
-                }
+                const IntV lane = hn::Load(di, open_.lane + i);
+                groups_[0].regions.scatter(kept, placesOf(lane), hn::Set(d, leastStep()));
+                // A flight without length, whose parts are no numbers, is cleared.
+                const FloatM open = hn::And(listed, hn::AndNot(hn::Or(by_end, by_begin), hn::Lt(first, last)));
+                const Listing listing(open);
+                const std::size_t to = kept_open;
+                listing.append(px, flights_.x + to);
+                listing.append(py, flights_.y + to);
+                listing.append(pz, flights_.z + to);
+                listing.append(hn::Mul(last, dx), flights_.dx + to);
+                listing.append(hn::Mul(last, dy), flights_.dy + to);
+                listing.append(hn::Mul(last, dz), flights_.dz + to);
+                listing.append(hn::Div(first, last), flights_.begin + to);
+                listing.append(lane, lanes_ + to);
+                kept_open += listing.count();
             }
+            flights_.count = kept_open;
         }
+    }
+
+    // Without tables: all flights that may meet the surface are tested.
+    void testAll() {
+        const Float d;
+        for (std::size_t i = 0; i < open_.count; i += hn::Lanes(d)) {
+            const auto copy = [&](const float* end, const float* begin, float* from, float* along) {
+                const FloatV start = hn::Load(d, begin + i);
+                hn::Store(start, d, from + i);
+                hn::Store(hn::Sub(hn::Load(d, end + i), start), d, along + i);
+            };
+            copy(open_.end_x, open_.x, flights_.x, flights_.dx);
+            copy(open_.end_y, open_.y, flights_.y, flights_.dy);
+            copy(open_.end_z, open_.z, flights_.z, flights_.dz);
+            hn::Store(hn::Zero(d), d, flights_.begin + i);
+            hn::Store(hn::Load(Int(), open_.lane + i), Int(), lanes_ + i);
+        }
+        flights_.count = open_.count;
     }
 
     // Square of 0 where walks take no large steps: nothing is that near to a middle.
@@ -311,69 +371,143 @@ private:
 
     // Tests flights that no region clears against the surface.
     void cross() {
-        std::size_t count = 0;
+        for (Group& group : groups_) group.uncleared = 0;
+        for (std::size_t i = 0; i < flights_.count; ++i) groupOf(i).uncleared |= bitOf(i);
+        chunk_.rays += flights_.count;
+        body_.cross(flights_, hits_);
+        lose();
         for (Group& group : groups_) {
             group.doubtful &= group.uncleared;  // the others are inside
-            const Lanes &before = from(group), &after = to(group);
-            for (std::uint64_t rest = group.uncleared; rest != 0; rest &= rest - 1) {
-                const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
-                const Vec3f start{before.x[lane], before.y[lane], before.z[lane]};
-                flights_[count++] = {start,
-                                     {after.x[lane] - start.x, after.y[lane] - start.y, after.z[lane] - start.z},
-                                     group.begin[lane],
-                                     group.end[lane]};
-            }
+            group.met = 0;
         }
-        chunk_.rays += count;
-        body_.cross({flights_, count}, {crossings_, count}, false);
-        Crossing* crossing = crossings_;
-        for (Group& group : groups_)
-            for (std::uint64_t rest = group.uncleared; rest != 0; rest &= rest - 1, ++crossing)
-                // Most often nothing is met, as before.
-                if (crossing->what != Crossing::What::none || (group.doubtful & rest & -rest) == 0)
-                    settle(group, static_cast<std::size_t>(std::countr_zero(rest)), *crossing);
+        for (std::size_t i = 0; i < hits_.count; ++i) {
+            const auto flight = static_cast<std::size_t>(hits_.flight[i]);
+            groupOf(flight).met |= bitOf(flight);
+        }
+        for (Group& group : groups_) {
+            const Lanes& before = from(group);
+            for (std::uint64_t rest = group.uncleared & ~(group.doubtful | group.met); rest != 0; rest &= rest - 1) {
+                const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+                group.sure[lane] = {{before.x[lane], before.y[lane], before.z[lane]},
+                                    {before.u[lane], before.v[lane], before.w[lane]},
+                                    before.collisions[lane]};
+            }
+            group.doubtful = group.uncleared & ~group.met;
+        }
+        for (std::size_t i = 0; i < hits_.lost_count; ++i) takeBack(static_cast<std::size_t>(hits_.lost[i]));
+        meet();
     }
 
-    void settle(Group& group, std::size_t lane, Crossing& crossing) {
-        const std::uint64_t bit = std::uint64_t{1} << lane;
-        const Lanes& before = from(group);
-        Lanes& after = to(group);
-        if (crossing.what != Crossing::What::surface && (group.doubtful & bit) == 0) {
-            group.doubtful |= bit;
-            group.sure[lane] = {{before.x[lane], before.y[lane], before.z[lane]},
-                                {before.u[lane], before.v[lane], before.w[lane]},
-                                before.collisions[lane]};
+    Group& groupOf(std::size_t flight) { return groups_[lanes_[flight] / static_cast<std::int32_t>(kLanes)]; }
+    std::size_t laneOf(std::size_t flight) const { return static_cast<std::size_t>(lanes_[flight]) % kLanes; }
+    std::uint64_t bitOf(std::size_t flight) const { return std::uint64_t{1} << laneOf(flight); }
+
+    // What ends beyond the body without having met anything had slipped out before.
+    void lose() {
+        const Float d;
+        const Vec3f low = body_.low(), high = body_.high();
+        for (std::size_t at = 0; at < flights_.count; at += hn::Lanes(d)) {
+            const auto within = [&](const float* from, const float* along, float least, float most) {
+                const FloatV end = hn::Add(hn::Load(d, from + at), hn::Load(d, along + at));
+                return hn::And(hn::Gt(end, hn::Set(d, least)), hn::Lt(end, hn::Set(d, most)));
+            };
+            const FloatM inside = hn::And(within(flights_.x, flights_.dx, low.x, high.x),
+                                          hn::And(within(flights_.y, flights_.dy, low.y, high.y),
+                                                  within(flights_.z, flights_.dz, low.z, high.z)));
+            for (std::uint64_t out = bitsOf(hn::AndNot(inside, hn::FirstN(d, flights_.count - at))); out != 0;
+                 out &= out - 1) {
+                const auto flight = static_cast<std::int32_t>(at) + std::countr_zero(out);
+                const auto listed = [flight](std::span<const std::int32_t> list) {
+                    return std::ranges::find(list, flight) != list.end();
+                };
+                if (!listed({hits_.flight, hits_.count}) && !listed({hits_.lost, hits_.lost_count}))
+                    hits_.lost[hits_.lost_count++] = flight;
+            }
         }
-        if (crossing.what == Crossing::What::none) return;
-        group.ends &= ~bit;
-        after.collisions[lane] = before.collisions[lane];
-        if (crossing.what == Crossing::What::surface) {
-            group.doubtful &= ~bit;
-            meet(group, lane, crossing);
-        } else if (++group.taken_back[lane] > kMostTakenBack) {
+    }
+
+    void takeBack(std::size_t flight) {
+        Group& group = groupOf(flight);
+        const std::size_t lane = laneOf(flight);
+        group.ends &= ~bitOf(flight);
+        if (++group.taken_back[lane] > kMostTakenBack) {
             ++chunk_.lost;
-            end(group, lane, after.collisions[lane]);
+            end(group, lane, from(group).collisions[lane]);
         } else {
             ++chunk_.taken_back;
             const Group::Sure& sure = group.sure[lane];
-            put(group, after, lane, sure.position, sure.direction);
-            after.collisions[lane] = sure.collisions;
+            put(group, to(group), lane, sure.position, sure.direction);
+            to(group).collisions[lane] = sure.collisions;
         }
     }
 
     // Leaves through the surface or is reflected by it.
-    void meet(Group& group, std::size_t lane, Crossing& crossing) {
-        const Lanes& before = from(group);
-        const Vec3 direction{before.u[lane], before.v[lane], before.w[lane]};
-        const double cosine = std::clamp(dot(direction, crossing.normal), 0.0, 1.0);
-        if (medium_.eta != 1 && random_.uniform() < internalReflectance(medium_.eta, cosine)) {
-            put(group, to(group), lane, crossing.inside, toFloat(normalize(direction - 2 * cosine * crossing.normal)));
-            return;
+    HWY_NOINLINE void meet() {
+        const Float d;
+        for (std::size_t i = 0; i < hits_.count; ++i) {
+            const auto flight = static_cast<std::size_t>(hits_.flight[i]);
+            Group& group = groupOf(flight);
+            const std::size_t lane = laneOf(flight);
+            group.ends &= ~bitOf(flight);
+            const Lanes& before = from(group);
+            to(group).collisions[lane] = before.collisions[lane];
+            direction_[0][i] = before.u[lane], direction_[1][i] = before.v[lane], direction_[2][i] = before.w[lane];
+            if (medium_.eta != 1) draw_[i] = static_cast<std::int32_t>(random_.next() >> 32);
         }
+        std::size_t exits = 0;
+        for (std::size_t at = 0; at < hits_.count; at += hn::Lanes(d)) {
+            const FloatV u = hn::Load(d, direction_[0] + at), v = hn::Load(d, direction_[1] + at),
+                         w = hn::Load(d, direction_[2] + at);
+            const FloatV nx = hn::Load(d, hits_.nx + at), ny = hn::Load(d, hits_.ny + at),
+                         nz = hn::Load(d, hits_.nz + at);
+            const FloatV cosine = hn::MulAdd(u, nx, hn::MulAdd(v, ny, hn::Mul(w, nz)));
+            FloatM reflected = hn::FirstN(d, 0);
+            if (medium_.eta != 1) {
+                const FloatV clamped = hn::Min(hn::Max(cosine, hn::Zero(d)), hn::Set(d, 1.0f));
+                const FloatV part = fresnel(clamped, hn::Set(d, static_cast<float>(medium_.eta))).reflectance;
+                reflected = hn::Lt(uniform(hn::Load(Int(), draw_ + at)), part);
+            }
+            const FloatV twice = hn::Add(cosine, cosine);
+            FloatV ru = hn::NegMulAdd(twice, nx, u), rv = hn::NegMulAdd(twice, ny, v), rw = hn::NegMulAdd(twice, nz, w);
+            const FloatV square = hn::MulAdd(ru, ru, hn::MulAdd(rv, rv, hn::Mul(rw, rw)));
+            const FloatV mend = hn::NegMulAdd(hn::Set(d, 0.5f), square, hn::Set(d, 1.5f));
+            hn::Store(hn::Mul(ru, mend), d, reflected_[0] + at);
+            hn::Store(hn::Mul(rv, mend), d, reflected_[1] + at);
+            hn::Store(hn::Mul(rw, mend), d, reflected_[2] + at);
+            const std::uint64_t some = bitsOf(hn::FirstN(d, hits_.count - at)), back = bitsOf(reflected) & some;
+            for (std::uint64_t rest = back; rest != 0; rest &= rest - 1) {
+                const std::size_t i = at + static_cast<std::size_t>(std::countr_zero(rest));
+                const auto flight = static_cast<std::size_t>(hits_.flight[i]);
+                Group& group = groupOf(flight);
+                put(group, to(group), laneOf(flight), {hits_.inside_x[i], hits_.inside_y[i], hits_.inside_z[i]},
+                    {reflected_[0][i], reflected_[1][i], reflected_[2][i]});
+            }
+            for (std::uint64_t rest = some & ~back; rest != 0; rest &= rest - 1) {
+                const std::size_t i = at + static_cast<std::size_t>(std::countr_zero(rest));
+                body_.seekCell(static_cast<std::uint32_t>(hits_.triangle[i]));
+                exits_[exits++] = static_cast<std::uint16_t>(i);
+            }
+        }
+        for (std::size_t i = 0; i < exits; ++i) leave(exits_[i]);
+    }
+
+    void leave(std::size_t i) {
+        const auto flight = static_cast<std::size_t>(hits_.flight[i]);
+        Group& group = groupOf(flight);
+        const std::size_t lane = laneOf(flight);
+        const Lanes& before = from(group);
+        Crossing crossing;
+        crossing.what = Crossing::What::surface;
+        crossing.position = {hits_.x[i], hits_.y[i], hits_.z[i]};
+        crossing.inside = {hits_.inside_x[i], hits_.inside_y[i], hits_.inside_z[i]};
+        crossing.normal = toDouble(Vec3f{hits_.nx[i], hits_.ny[i], hits_.nz[i]});
+        crossing.triangle = static_cast<std::uint32_t>(hits_.triangle[i]);
+        crossing.u = hits_.u[i], crossing.v = hits_.v[i];
+        crossing.cell = body_.cellOf(crossing);
         const float weight = group.weight[lane];
         chunk_.left += weight;
         chunk_.exits = chunk_.exits + static_cast<double>(weight) * toDouble(crossing.position);
-        crossing.cell = body_.cellOf(crossing);
+        const Vec3 direction = toDouble(Vec3f{before.u[lane], before.v[lane], before.w[lane]});
         if ((group.scattered >> lane & 1) != 0)
             source_.leaveScattered(group.tag[lane], weight, {before.x[lane], before.y[lane], before.z[lane]}, direction,
                                    crossing, chunk_.cells);
@@ -416,9 +550,24 @@ private:
         group.tag[lane] = entry.tag;
         if (medium_.ways > 0) group.way[lane] = static_cast<std::int32_t>(random_.next() & 0xFFFF);
         // Absorption is drawn at once for the whole walk: it survives n collisions with probability albedo^n.
-        if (collisions_per_log_ > 0)
-            group.survives[lane] =
-                static_cast<std::int32_t>(std::min(-std::log(random_.uniform()) * collisions_per_log_, 0x1p30));
+        if (collisions_per_log_ > 0) group.survives[lane] = survives();
+    }
+
+    // How many collisions a walk survives; drawn for many at once.
+    std::int32_t survives() {
+        if (survives_left_ == 0) {
+            const Int di;
+            for (std::size_t i = 0; i < kLanes; i += 2) {
+                const std::uint64_t bits = random_.next();
+                survives_[i] = static_cast<std::int32_t>(bits),
+                survives_[i + 1] = static_cast<std::int32_t>(bits >> 32);
+            }
+            const FloatV scale = hn::Set(Float(), static_cast<float>(collisions_per_log_));
+            for (std::size_t at = 0; at < kLanes; at += hn::Lanes(di))
+                hn::Store(collisionsSurvived(hn::Load(di, survives_ + at), scale), di, survives_ + at);
+            survives_left_ = kLanes;
+        }
+        return survives_[--survives_left_];
     }
 
     const Body& body_;
@@ -433,8 +582,16 @@ private:
     int now_ = 0;                // which lanes a step begins from
     BodyChunk chunk_;
     Group groups_[kGroups];
-    Ray flights_[kGroups * kLanes];
-    Crossing crossings_[kGroups * kLanes];
+    OpenFlights open_;
+    alignas(64) std::int32_t places_[2][OpenFlights::kRoom];  // of regions of the begins and ends of open flights
+    Flights flights_;                                         // to be tested, and
+    alignas(64) std::int32_t lanes_[Flights::kRoom];          // whose they are
+    FlightHits hits_;
+    alignas(64) float direction_[3][FlightHits::kRoom], reflected_[3][FlightHits::kRoom];  // of the flights that hit
+    alignas(64) std::int32_t draw_[FlightHits::kRoom];
+    std::uint16_t exits_[Flights::kMost];
+    alignas(64) std::int32_t survives_[kLanes];
+    std::size_t survives_left_ = 0;
 };
 
 template <class Body, class Regions>

@@ -1,7 +1,5 @@
 #include "transport/mesh/radiance_body.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -14,6 +12,7 @@
 #include "transport/mesh/facet_beams.h"
 #include "transport/mesh/lit_walk.h"
 #include "transport/mesh/sphere_beams.h"
+#include "transport/mesh/strayed_walks.h"
 #include "transport/walk/chunks.h"
 
 namespace searchlight {
@@ -22,7 +21,6 @@ namespace {
 
 constexpr std::uint64_t kLargestChunk = 65'536;
 constexpr std::uint64_t kFewestChunks = 64;
-constexpr double kMostLost = 1e-4;  // of all walks, as in reference_body.cpp
 
 // Sums of a job; after the counts the values of each pixel, and their squares.
 enum Sum { lost, rays, pixels };
@@ -68,6 +66,7 @@ BodyRadiance walkAny(const Body& body, const Medium& medium, int channel, const 
     if (options.walks_per_pixel == 0) throw inputError("a reference needs at least one walk per pixel");
     if (!medium.scatters(channel)) throw inputError("the medium does not scatter in this channel");
     const double sigma_t = medium.sigmaT()[channel];
+    if constexpr (std::is_same_v<Body, Ball>) requireResolved(2 * body.radius(), 1 / sigma_t);
     BodyMedium walk{sigma_t, medium.sigma_a[channel] / sigma_t, medium.g[channel], medium.eta};
     const auto* const lights = std::get_if<const LightSampler*>(&light);
 
@@ -80,6 +79,7 @@ BodyRadiance walkAny(const Body& body, const Medium& medium, int channel, const 
     job.control = options.control;
     std::optional<Beams> beams;
     if (needsBeams<Beams>(light, medium.eta)) beams.emplace(body, walk, **lights, channel);
+    StrayedWalks strayed;
     const ChunkedResult walked = walkChunks(
         job, {BatchRatios(pixels + 2 * camera.pixels())}, BodyChunk(),
         [&](std::uint64_t chunk, std::uint64_t count, BodyChunk& tally) {
@@ -95,6 +95,7 @@ BodyRadiance walkAny(const Body& body, const Medium& medium, int channel, const 
         [&](const BodyChunk& chunk, std::uint64_t count, std::vector<BatchRatios>& to) {
             std::vector<double> values(pixels + 2 * camera.pixels());
             values[lost] = static_cast<double>(chunk.lost + chunk.taken_back);
+            strayed.add(chunk.lost + chunk.taken_back, count);
             values[rays] = static_cast<double>(chunk.rays);
             for (const CellExit& exit : chunk.cells) {
                 const double value = static_cast<double>(exit.weight);
@@ -108,10 +109,7 @@ BodyRadiance walkAny(const Body& body, const Medium& medium, int channel, const 
     if constexpr (std::is_same_v<Beams, FacetBeams>)
         if (beams) result.mirrored = beams->mirrored(), result.orders = beams->orders();
     result.threads = options.threads > 0 ? options.threads : hardwareThreads();
-    if (static_cast<double>(result.lost) > kMostLost * static_cast<double>(result.walks) + 3)
-        throw inputError(
-            fmt::format("{} of {} walks left the mesh without crossing its surface", result.lost, result.walks),
-            "a mesh that crosses or folds onto itself does not bound a body");
+    StrayedWalks::check(result.lost, result.walks);
     return result;
 }
 

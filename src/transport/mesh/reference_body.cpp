@@ -1,7 +1,5 @@
 #include "transport/mesh/reference_body.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +10,7 @@
 #include "base/parallel.h"
 #include "transport/mesh/ball_gl.h"
 #include "transport/mesh/body_walk.h"
+#include "transport/mesh/strayed_walks.h"
 #include "transport/walk/chunks.h"
 
 namespace searchlight {
@@ -22,8 +21,6 @@ constexpr double kFewestChunks = 64;
 constexpr double kLargestChunk = 65'536;  // walks
 constexpr std::uint64_t kPilot = 65'536;  // candidates
 constexpr std::uint64_t kPilotChunk = ~std::uint64_t{0};
-// Of all walks: bounds what putting walks back changes, and lies far above what rounding does.
-constexpr double kMostLost = 1e-4;
 
 // What candidates weigh, from some that are not used again.
 struct Pilot {
@@ -130,6 +127,7 @@ BodyResult walkAny(const Body& body, const Medium& medium, int channel, const Il
     if (options.walks == 0) throw inputError("a reference needs at least one walk");
     if (!medium.scatters(channel)) throw inputError("the medium does not scatter in this channel");
     const double sigma_t = medium.sigmaT()[channel];
+    if constexpr (std::is_same_v<Body, Ball>) requireResolved(2 * body.radius(), 1 / sigma_t);
     BodyMedium walk{sigma_t, medium.sigma_a[channel] / sigma_t, medium.g[channel], medium.eta};
     EntryOptions entry{channel, medium.eta};
     const Pilot pilot = pilotOf(body, light, entry, options.seed);
@@ -168,6 +166,7 @@ BodyResult walkAny(const Body& body, const Medium& medium, int channel, const Il
     } else if (options.gl) {
         throw inputError("OpenGL does not walk in meshes", "a sphere, or the CPU (--backend cpu)");
     }
+    StrayedWalks strayed;
     const ChunkedResult walked = walkChunks(
         job, emptySums(body.cellCount()), BodyChunk(),
         [&](std::uint64_t chunk, std::uint64_t tried, BodyChunk& tally) {
@@ -183,15 +182,13 @@ BodyResult walkAny(const Body& body, const Medium& medium, int channel, const Il
             return tally.collisions;
         },
         [&](const BodyChunk& chunk, std::uint64_t, std::vector<BatchRatios>& to) {
+            strayed.add(chunk.taken_back + chunk.lost, chunk.entry.walks);
             addChunk(chunk, body.cellCount(), to);
         },
         observer);
     BodyResult result = resultOf(walked, body, pilot);
     result.threads = device ? 1 : options.threads > 0 ? options.threads : hardwareThreads();
-    if (static_cast<double>(result.taken_back + result.lost) > kMostLost * static_cast<double>(result.entries) + 3)
-        throw inputError(fmt::format("{} of {} walks left the mesh without crossing its surface",
-                                     result.taken_back + result.lost, result.entries),
-                         "a mesh that crosses or folds onto itself does not bound a body");
+    StrayedWalks::check(result.taken_back + result.lost, result.entries);
     return result;
 }
 

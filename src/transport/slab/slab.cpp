@@ -11,10 +11,10 @@
 #include "base/parallel.h"
 #include "base/text.h"
 #include "transport/slab/slab_best.h"
+#include "transport/slab/slab_entry.h"
 #include "transport/slab/slab_gl.h"
 #include "transport/slab/slab_walk.h"
 #include "transport/walk/chunks.h"
-#include "transport/walk/fresnel.h"
 
 namespace searchlight {
 
@@ -80,49 +80,6 @@ void check(const SlabOptions& options) {
         throw inputError("the tallies have more than 4 million cells", "fewer radial bins, angles, depths or cells");
 }
 
-// Unpolarised; n sin = `invariant` on both sides.
-double reflectance(double n, double n_beyond, double invariant) {
-    if (n == n_beyond) return 0;
-    const double sine = invariant / n, sine_beyond = invariant / n_beyond;
-    if (sine >= 1 || sine_beyond >= 1) return 1;
-    const double c = std::sqrt((1 - sine) * (1 + sine)), t = std::sqrt((1 - sine_beyond) * (1 + sine_beyond));
-    return fresnelReflectance(n, c, n_beyond, t);
-}
-
-// The beam down to its first layer that is not clear (to below the slab when all are).
-struct Entry {
-    double specular = 0;
-    std::vector<SlabWalk::Surface> surfaces;
-    std::size_t first = 0;
-    double sine = 0;  ///< in that layer
-};
-
-Entry entryOf(const SlabProblem& problem) {
-    const double angle = problem.angle_deg * (std::numbers::pi / 180);
-    const double invariant = problem.n_above * std::sin(angle);
-    Entry entry;
-    double n = problem.n_above;
-    const std::vector<SlabLayer>& layers = problem.layers;
-    for (;; ++entry.first) {
-        const bool below = entry.first == layers.size();
-        const double next = below ? problem.n_below : layers[entry.first].n;
-        entry.surfaces.push_back({reflectance(n, next, invariant)});
-        n = next;
-        if (below || !layers[entry.first].clear()) break;
-        const double sine = std::min(invariant / n, 1.0);
-        // Beyond total reflection nothing gets here.
-        entry.surfaces.back().shift_mm =
-            sine < 1 ? layers[entry.first].thickness_mm * sine / std::sqrt((1 - sine) * (1 + sine)) : 0;
-    }
-    entry.sine = std::min(invariant / n, 1.0);
-    // Intensities add up between clear layers, from the lowest surface up; [Wang1995] does so for one layer.
-    for (auto surface = entry.surfaces.rbegin(); surface != entry.surfaces.rend(); ++surface) {
-        const double r = surface->reflectance, rest = entry.specular;
-        entry.specular = r == 1 ? 1 : r + (1 - r) * (1 - r) * rest / (1 - r * rest);
-    }
-    return entry;
-}
-
 // Which part of the collisions the tally counts: all would take more time than the walk. Where walks collide often
 // before they are absorbed, each collision says little that its neighbours do not. At least the absorbed ones, so that
 // counting those alone (the analogue estimator, all that there is on OpenGL) is the end of the scale.
@@ -138,7 +95,7 @@ SlabLayout::Layer countedCollision(const SlabLayer& layer, double top_mm, bool a
     return {top_mm, layer.sigma_a / counted, 1 / counted};
 }
 
-SlabWalk walkOf(const SlabProblem& problem, const Entry& entry) {
+SlabWalk walkOf(const SlabProblem& problem, const SlabEntry& entry) {
     SlabWalk walk;
     const std::vector<SlabLayer>& layers = problem.layers;
     for (std::size_t i = 0; i < layers.size(); ++i) {
@@ -156,7 +113,7 @@ SlabWalk walkOf(const SlabProblem& problem, const Entry& entry) {
         into.eta_up = layer.n / above;
         into.eta_down = layer.n / below;
     }
-    if (problem.angle_deg > 0 && entry.first > 0) walk.entry = entry.surfaces;
+    walk.entry = entry.shift;
     walk.shape = problem.beam;
     walk.cos_incidence = std::cos(problem.angle_deg * (std::numbers::pi / 180));
     walk.first = static_cast<std::int32_t>(entry.first);
@@ -355,7 +312,7 @@ SlabLayout slabLayout(const SlabProblem& problem, const SlabOptions& options) {
 
 SlabResult walkSlab(const SlabProblem& problem, const SlabOptions& options, Observer& observer) {
     const SlabLayout layout = slabLayout(problem, options);
-    const Entry entry = entryOf(problem);
+    const SlabEntry entry = slabEntry(problem);
     SlabResult result;
     result.specular = entry.specular;
     result.threads = options.threads > 0 ? options.threads : hardwareThreads();

@@ -32,7 +32,7 @@ Moments phaseMoments(const SlabWalk& walk, const SlabWalk::Layer& layer) {
     const auto first = static_cast<std::size_t>(layer.phase.first), count = static_cast<std::size_t>(layer.phase.count);
     std::vector<double> part(count);
     for (std::size_t i = 0; i < count; ++i) {
-        const double stays = static_cast<double>(tables.stay[first + i]);
+        const double stays = static_cast<double>(tables.stay[first + i]) / PhaseTables::kStays;
         part[i] += stays / static_cast<double>(count);
         part[static_cast<std::size_t>(tables.alias[first + i]) - first] += (1 - stays) / static_cast<double>(count);
     }

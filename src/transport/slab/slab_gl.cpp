@@ -53,7 +53,7 @@ std::uint64_t SlabGl::walkChunk(std::uint64_t chunk, SlabTally& tally) {
     std::uint64_t collisions = 0;
     for (std::size_t i = 0; i < ends.size(); ++i) {
         const BeamPoint start = walk_.shape.draw(random, walk_.cos_incidence);
-        const double shift = walk_.entry.empty() ? 0 : entryShift(walk_.entry, random);
+        const double shift = walk_.entry.draw(random);
         const std::int32_t n = ends.collisions[i];
         collisions += static_cast<std::uint64_t>(n);
         const WalkGlEnds::Fate fate = ends.fate(i);

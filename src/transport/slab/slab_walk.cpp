@@ -56,12 +56,12 @@ struct alignas(64) Layers {
     std::int32_t index[kLanes];
     float mfp[kLanes], thickness[kLanes];
     float g[kLanes], half_qq[kLanes];
-    std::int32_t table[kLanes];     // first bin of its phase function
-    float table_bins[kLanes];       // 0: Henyey-Greenstein
-    std::int32_t absorbed[kLanes];  // probability, in units of 2^-30
-    std::int32_t counted[kLanes];   // the same
-    std::int32_t survives[kLanes];  // so many collisions; the next one meets the roulette of long walks
-    std::int32_t fate[kLanes];      // all ones: absorbed by the collision of the current step
+    std::int32_t table[kLanes];       // first bin of its phase function
+    std::int32_t table_bins[kLanes];  // 0: Henyey-Greenstein
+    std::int32_t absorbed[kLanes];    // probability, in units of 2^-30
+    std::int32_t counted[kLanes];     // the same
+    std::int32_t survives[kLanes];    // so many collisions; the next one meets the roulette of long walks
+    std::int32_t fate[kLanes];        // all ones: absorbed by the collision of the current step
 };
 
 struct Ends {
@@ -109,7 +109,7 @@ public:
             g_.push_back(static_cast<float>(layer.g));
             half_qq_.push_back(static_cast<float>(0.5 * (1 - layer.g) * (1 - layer.g)));
             table_.push_back(layer.phase.first);
-            table_bins_.push_back(static_cast<float>(layer.phase.count));
+            table_bins_.push_back(layer.phase.count);
             absorbed_.push_back(static_cast<std::int32_t>(std::lround(layer.absorbed * 0x1p30)));
             counted_.push_back(static_cast<std::int32_t>(std::lround(layer.counted * 0x1p30)));
             eta_.push_back(static_cast<float>(layer.eta_down));
@@ -222,7 +222,7 @@ public:
         waiting_ -= started;
         moveToEntry(pack, free, walk_.sin_beam, walk_.cos_beam);
         if constexpr (kKnows == Knows::place)
-            if (walk_.entry.size() > 1 || walk_.shape.kind != BeamShape::pencil) place(pack, free, started);
+            if (walk_.entry.moves() || walk_.shape.kind != BeamShape::pencil) place(pack, free, started);
         enter(free, hn::Set(di, walk_.first), at);
         storeWhere(hn::RebindMask(di, free), hn::Set(di, kLongWalk), layers_.survives + at);
         if (!all_start) park(free, started, at);
@@ -294,10 +294,19 @@ private:
         return hn::Ne(hn::Load(d, others), hn::Zero(d));
     }
 
+    // 1 - cos of the scattering angle: of the lane's table, if it has one.
+    HWY_INLINE FloatV tabulatedOr(FloatV versine, Pack& pack, std::size_t at, IntV bits) {
+        const Int di;
+        const IntV bins = hn::Load(di, layers_.table_bins + at), one = hn::Set(di, 1);
+        const IntV alias_bits = pack.random.next();
+        const FloatV table = tabulatedVersine(walk_.tables, hn::Load(di, layers_.table + at), hn::Max(bins, one), bits,
+                                              alias_bits, pack.random.next());
+        return hn::IfThenElse(hn::RebindMask(Float(), hn::Gt(bins, hn::Zero(di))), table, versine);
+    }
+
     // Into the direction after a collision.
     HWY_INLINE void turn(Pack& pack, std::size_t at) {
         const Float d;
-        const Int di;
         if constexpr (kKnows == Knows::depth) {
             const IntV bits = pack.random.next();
             if constexpr (kPhase == Phase::isotropic) {
@@ -306,12 +315,7 @@ private:
             }
             FloatV versine = henyeyGreensteinVersine(hn::Load(d, layers_.g + at), hn::Load(d, layers_.half_qq + at),
                                                      signedUniform(bits));
-            if constexpr (kPhase == Phase::any) {
-                const FloatV bins = hn::Load(d, layers_.table_bins + at);
-                const FloatV table = tabulatedVersine(walk_.tables, hn::Load(di, layers_.table + at),
-                                                      hn::Max(bins, hn::Set(d, 1.0f)), bits, pack.random.next());
-                versine = hn::IfThenElse(hn::Gt(bins, hn::Zero(d)), table, versine);
-            }
+            if constexpr (kPhase == Phase::any) versine = tabulatedOr(versine, pack, at, bits);
             const FloatV one = hn::Set(d, 1.0f), w = pack.direction.w;
             const FloatV across2 = hn::Mul(hn::Mul(versine, hn::Sub(hn::Set(d, 2.0f), versine)),
                                            hn::Max(hn::NegMulAdd(w, w, one), hn::Zero(d)));
@@ -321,15 +325,11 @@ private:
         } else if constexpr (kPhase != Phase::any) {
             scatter<kPhase == Phase::isotropic>(pack, hn::Load(d, layers_.g + at), hn::Load(d, layers_.half_qq + at));
         } else {
-            const FloatV bins = hn::Load(d, layers_.table_bins + at);
-            const FloatM tabulated = hn::Gt(bins, hn::Zero(d));
             const IntV bits = pack.random.next();
-            const FloatV cosine = henyeyGreensteinVersine(hn::Load(d, layers_.g + at),
-                                                          hn::Load(d, layers_.half_qq + at), signedUniform(bits));
-            const FloatV table = tabulatedVersine(walk_.tables, hn::Load(di, layers_.table + at),
-                                                  hn::Max(bins, hn::Set(d, 1.0f)), bits, pack.random.next());
-            pack.direction =
-                turnedBy(pack.direction, hn::IfThenElse(tabulated, table, cosine), azimuth(pack.random.next()));
+            const FloatV versine = henyeyGreensteinVersine(hn::Load(d, layers_.g + at),
+                                                           hn::Load(d, layers_.half_qq + at), signedUniform(bits));
+            const FloatV drawn = tabulatedOr(versine, pack, at, bits);
+            pack.direction = turnedBy(pack.direction, drawn, azimuth(pack.random.next()));
         }
     }
 
@@ -415,7 +415,7 @@ private:
             set(layers_.half_qq, half_qq_);
         }
         if constexpr (kPhase == Phase::any) {
-            set(layers_.table_bins, table_bins_);
+            storeWhere(enters_i, hn::GatherIndex(di, table_bins_.data(), valid), layers_.table_bins + at);
             storeWhere(enters_i, hn::GatherIndex(di, table_.data(), valid), layers_.table + at);
         }
         storeWhere(enters_i, hn::GatherIndex(di, absorbed_.data(), valid), layers_.absorbed + at);
@@ -444,7 +444,7 @@ private:
             const BeamPoint point = walk_.shape.draw(rare_, walk_.cos_incidence);
             x[lane] = static_cast<float>(point.x);
             y[lane] = static_cast<float>(point.y);
-            if (walk_.entry.size() > 1) x[lane] += static_cast<float>(entryShift(walk_.entry, rare_));
+            if (walk_.entry.moves()) x[lane] += static_cast<float>(walk_.entry.draw(rare_));
         });
         pack.x = hn::IfThenElse(free, hn::Load(d, x), pack.x);
         pack.y = hn::IfThenElse(free, hn::Load(d, y), pack.y);
@@ -470,8 +470,8 @@ private:
     SlabTally& tally_;
     std::span<double> sums_;
     std::int32_t count_;
-    std::vector<float> mfp_, thickness_, g_, half_qq_, table_bins_;
-    std::vector<std::int32_t> table_;
+    std::vector<float> mfp_, thickness_, g_, half_qq_;
+    std::vector<std::int32_t> table_, table_bins_;
     std::vector<float> eta_;  // per layer: downwards, upwards
     std::vector<std::int32_t> absorbed_, counted_;
     Lanes lanes_[2];
@@ -512,24 +512,6 @@ namespace searchlight {
 
 HWY_EXPORT(walkSlab);
 HWY_EXPORT(slabTarget);
-
-double entryShift(const std::vector<SlabWalk::Surface>& surfaces, SplitMix64& random) {
-    const auto below = static_cast<std::ptrdiff_t>(surfaces.size());
-    for (;;) {  // until one enters: those that do not are the specular part, which is known
-        double shift = 0;
-        std::ptrdiff_t next = 0;  // surface ahead
-        bool down = true;
-        while (next >= 0 && next < below) {
-            const bool reflected = random.uniform() < surfaces[static_cast<std::size_t>(next)].reflectance;
-            if (reflected) down = !down;
-            // Behind the surface when reflected, beyond it otherwise, lies the layer to cross.
-            const std::ptrdiff_t layer = down ? next : next - 1;
-            if (layer >= 0 && layer + 1 < below) shift += surfaces[static_cast<std::size_t>(layer)].shift_mm;
-            next += down ? 1 : -1;
-        }
-        if (down) return shift;
-    }
-}
 
 std::uint64_t walkSlabChunk(const SlabWalk& walk, std::uint64_t seed, std::uint64_t chunk, std::uint64_t walks,
                             SlabTally& tally) {

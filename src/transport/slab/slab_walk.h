@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "transport/slab/slab_entry.h"
 #include "transport/slab/slab_tally.h"
 #include "transport/walk/beam.h"
 #include "transport/walk/phase_function.h"
@@ -28,20 +29,12 @@ struct SlabWalk {
     };
     std::vector<Layer> layers;
     PhaseTables tables;
-    /// The beam enters `first` through the clear layers above it, where it crossed `entry` surfaces: it is reflected
-    /// at surface i with probability reflectance and shifts by shift_mm across the layer above surface i + 1.
-    struct Surface {
-        double reflectance = 0, shift_mm = 0;
-    };
-    std::vector<Surface> entry;
+    EntryShift entry;  ///< through the clear layers above `first`
     std::int32_t first = 0;
     double sin_beam = 0, cos_beam = 1;  ///< in that layer; leans towards +x
     BeamShape shape = {};
     double cos_incidence = 1;  ///< outside
 };
-
-/// How far along x the beam enters from where it met the slab, through more than one surface; of walks that enter.
-double entryShift(const std::vector<SlabWalk::Surface>& surfaces, SplitMix64& random);
 
 /// Starts `walks` walks of the stream (seed, chunk), finishes them all and adds every end to the tally. Returns the
 /// number of collisions.

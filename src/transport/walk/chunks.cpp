@@ -25,6 +25,13 @@ ChunkPlan ChunkPlan::goingOn(const WalkState* state) const {
     return plan;
 }
 
+std::uint64_t mostThreads(const ChunkedWalk& job) {
+    double most = job.threads > 0 ? job.threads : hardwareThreads();
+    if (job.control.share)
+        for (const std::vector<double>& one : gatherAll({most})) most = std::max(most, one.front());
+    return static_cast<std::uint64_t>(most);
+}
+
 bool isMilestone(std::uint64_t chunks) {
     // 64, 80, 96, 112, 128, 160, ...: four to each doubling.
     if (chunks < kFewestChunks) return false;

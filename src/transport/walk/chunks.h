@@ -64,6 +64,9 @@ struct ChunkedResult {
 /// Whether `enough` is asked after so many chunks.
 bool isMilestone(std::uint64_t chunks);
 
+/// Threads of the process that has the most: blocks are the same for all, whose machines may differ.
+std::uint64_t mostThreads(const ChunkedWalk& job);
+
 /// Walks the chunks. `walk(chunk, walks, tally)` fills a fresh copy of `empty` and returns the number of collisions;
 /// `add(tally, walks, sums)` takes its sums. A Tally has pack(), a list of doubles, and unpack(), its inverse, to be
 /// sent between processes. Throws interruptedError() when cancelled without a state to leave the sums in.
@@ -87,8 +90,7 @@ ChunkedResult walkChunks(const ChunkedWalk& job, std::vector<BatchRatios> sums, 
     // Blocks bound the memory; within a block threads take chunks as they come, and sums run in chunk order.
     const auto ranks = static_cast<std::uint64_t>(job.control.share ? rankCount() : 1);
     const auto own = static_cast<std::uint64_t>(job.control.share ? rank() : 0);
-    const auto threads = static_cast<std::uint64_t>(job.threads > 0 ? job.threads : hardwareThreads());
-    const std::uint64_t block = 4 * threads;
+    const std::uint64_t block = 4 * mostThreads(job);
     const auto begin = std::chrono::steady_clock::now();
     auto saved = begin;
     const double seconds_before = result.seconds;

@@ -65,16 +65,26 @@ HWY_INLINE Direction henyeyGreenstein(const Direction& from, FloatV g, FloatV ha
     return turnedBy(from, henyeyGreensteinVersine(g, half_qq, s), phi);
 }
 
+/// The integer part of count times a uniform number, from all of its 32 bits; count above 0.
+HWY_INLINE IntV uniformBelow(IntV count, IntV bits) {
+    const hn::RebindToUnsigned<Int> du;
+    const Word d;
+    const auto n = hn::BitCast(du, count), u = hn::BitCast(du, bits);
+    const auto even = hn::MulEven(n, u);
+    const auto odd = hn::MulEven(hn::BitCast(du, hn::ShiftRight<32>(hn::BitCast(d, n))),
+                                 hn::BitCast(du, hn::ShiftRight<32>(hn::BitCast(d, u))));
+    return hn::BitCast(Int(), hn::OddEven(hn::BitCast(du, odd), hn::BitCast(du, hn::ShiftRight<32>(even))));
+}
+
 /// 1 - cos of a scattering angle from the bins [first, first + count) of the tables; count at least 1.
-HWY_INLINE FloatV tabulatedVersine(const PhaseTables& tables, IntV first, FloatV count, IntV bin_bits, IntV bits) {
+HWY_INLINE FloatV tabulatedVersine(const PhaseTables& tables, IntV first, IntV count, IntV bin_bits, IntV alias_bits,
+                                   IntV bits) {
     const Float d;
     const Int di;
-    const FloatV place = hn::Mul(uniform(bin_bits), count);
-    // The product may round up to count.
-    const IntV bin = hn::Min(hn::ConvertTo(di, place), hn::Sub(hn::ConvertTo(di, count), hn::Set(di, 1)));
-    const IntV drawn = hn::Add(first, bin);
-    const FloatM stays = hn::Lt(hn::Sub(place, hn::ConvertTo(d, bin)), hn::GatherIndex(d, tables.stay.data(), drawn));
-    const IntV at = hn::IfThenElse(hn::RebindMask(di, stays), drawn, hn::GatherIndex(di, tables.alias.data(), drawn));
+    const IntV drawn = hn::Add(first, uniformBelow(count, bin_bits));
+    const auto stays =
+        hn::Lt(hn::And(alias_bits, hn::Set(di, PhaseTables::kStays)), hn::GatherIndex(di, tables.stay.data(), drawn));
+    const IntV at = hn::IfThenElse(stays, drawn, hn::GatherIndex(di, tables.alias.data(), drawn));
     // Inverse of the integral of a linear density that begins at a and ends at 2 - a.
     const FloatV two = hn::Set(d, 2.0f), v = uniform(bits), a = hn::GatherIndex(d, tables.density.data(), at);
     const FloatV twice = hn::Mul(two, v);

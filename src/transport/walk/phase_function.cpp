@@ -113,7 +113,7 @@ PhaseTables::Range PhaseTables::add(const PhaseFunction& phase) {
     for (std::size_t i = 0; i < count; ++i) {
         const double m0 = versine(phase.angles_deg[i]), m1 = versine(phase.angles_deg[i + 1]);
         const double sum = phase.values[i] + phase.values[i + 1];
-        stay.push_back(static_cast<float>(std::min(part[i], 1.0)));
+        stay.push_back(static_cast<std::int32_t>(std::round(kStays * std::min(part[i], 1.0))));
         alias.push_back(range.first + static_cast<std::int32_t>(other[i]));
         begin.push_back(static_cast<float>(m0));
         width.push_back(static_cast<float>(m1 - m0));

@@ -34,7 +34,8 @@ struct PhaseTables {
     /// Appends a phase function.
     Range add(const PhaseFunction& phase);
 
-    std::vector<float> stay;
+    static constexpr std::int32_t kStays = 0x7FFFFFFF;  ///< a probability of 1
+    std::vector<std::int32_t> stay;                     ///< in 1 / kStays
     std::vector<std::int32_t> alias;
     std::vector<float> begin, width;  ///< of the bin, in 1 - cos
     std::vector<float> density;       ///< at its begin, over the mean of the bin
