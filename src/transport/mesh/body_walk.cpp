@@ -123,6 +123,7 @@ private:
             ends |= bitsOf(hn::RebindMask(d, hn::Gt(pack.collisions, hn::Load(Int(), group.survives + at)))) << at;
         }
         open_.count = opened;
+        group.uncleared = group.walking & ~stay;
         group.collided = group.walking;
         group.ends = ends;
         group.deep = deep & stay & group.walking & ~ends;
@@ -208,8 +209,10 @@ private:
 
     // Tests flights that no region clears against the surface.
     void cross() {
-        for (Group& group : groups_) group.uncleared = 0;
-        for (std::size_t i = 0; i < tested_.flights.count; ++i) groupOf(i).uncleared |= bitOf(i);
+        if (tested_.flights.count < open_.count) {
+            for (Group& group : groups_) group.uncleared = 0;
+            for (std::size_t i = 0; i < tested_.flights.count; ++i) groupOf(i).uncleared |= bitOf(i);
+        }
         chunk_.rays += tested_.flights.count;
         body_.cross(tested_.flights, hits_);
         lose();
