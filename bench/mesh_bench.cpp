@@ -106,7 +106,7 @@ std::vector<Ray> flightsOf(const MeshBody& in, double mfp) {
     return rays;
 }
 
-enum class Asked { one_at_a_time, eights, columns };
+enum class Asked { one_at_a_time, packets, side_by_side };
 
 void shortRays(benchmark::State& state, double mfp, Asked asked) {
     const MeshBody& in = body(Tests::embree, mfp);
@@ -125,9 +125,9 @@ void shortRays(benchmark::State& state, double mfp, Asked asked) {
     double traced = 0;
     const double begin = cpuSeconds();
     for (auto _ : state) {
-        if (asked == Asked::eights)
+        if (asked == Asked::packets)
             in.rays().intersect(rays, hits, false);
-        else if (asked == Asked::columns)
+        else if (asked == Asked::side_by_side)
             for (const Flights& f : lists)
                 in.rays().intersect({f.x, f.y, f.z, f.dx, f.dy, f.dz, f.begin, f.count, 1}, listed);
         else
@@ -145,8 +145,8 @@ const Medium milk_green = makeMedium({0.0024}, {3.21}, {0}, 1.3);
 const Medium forward = makeMedium({0.0021}, {21.9}, {0.9}, 1.5);
 
 BENCHMARK_CAPTURE(shortRays, one_at_a_time, 0.456, Asked::one_at_a_time)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(shortRays, packets_of_8, 0.456, Asked::eights)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(shortRays, packets_of_16, 0.456, Asked::columns)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(shortRays, packets, 0.456, Asked::packets)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(shortRays, side_by_side, 0.456, Asked::side_by_side)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(walk, marble_red_ray_each, marble_red, 0.33, Tests::embree, false, 1e6)
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(walk, marble_red_grid_each, marble_red, 0.33, Tests::grid, false, 1e6)->Unit(benchmark::kMillisecond);

@@ -25,7 +25,7 @@ struct RayHit {
     Vec3f normal;        ///< geometric, unit, outward by the triangle's orientation, whichever side was hit
 };
 
-/// Rays side by side, and how far to look along all of them. Up to 15 numbers behind the last of each list may be read.
+/// Rays side by side, and how far to look along all of them. Up to 7 numbers behind the last of each list may be read.
 struct RayColumns {
     const float *x, *y, *z, *dx, *dy, *dz, *t_min;
     std::size_t count = 0;

@@ -24,16 +24,13 @@
 #include <cmath>
 #include <memory>
 
-#include "transport/walk/fresnel.h"
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "transport/mesh/body_walk.cpp"
 #include <hwy/foreach_target.h>
 
-#include "transport/mesh/lane_list-inl.h"
-#include "transport/mesh/lane_regions-inl.h"
 #include "transport/mesh/large_steps-inl.h"
-#include "transport/walk/lane_walk-inl.h"
+#include "transport/mesh/open_flights-inl.h"
+#include "transport/mesh/surface_meeting-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace searchlight {
@@ -41,64 +38,6 @@ namespace HWY_NAMESPACE {
 
 // A walk that is taken back more often is in a place that is none: a fold, or two surfaces that cross.
 constexpr int kMostTakenBack = 16;
-
-// Groups of lanes take turns: while the memory fetches regions for one, the processor walks the others, and rays of
-// all are asked together.
-constexpr std::size_t kGroups = 4;
-
-struct Group {
-    struct Sure {
-        Vec3f position, direction;
-        std::int32_t collisions = 0;
-    };
-
-    std::uint64_t walking = 0;    // a bit per lane
-    std::uint64_t uncleared = 0;  // flights that may have met the surface, and
-    std::uint64_t met = 0;        // that have
-    std::uint64_t ends = 0;       // absorbed
-    std::uint64_t deep = 0;       // where a large step fits
-    std::uint64_t collided = 0;   // at a collision after the step, and
-    std::uint64_t scattered = 0;  // before it
-    std::uint64_t doubtful = 0;   // flights since `sure` were tested and met nothing
-    Sure sure[kLanes];            // of those lanes: the start of the last flight known to begin inside
-    int taken_back[kLanes] = {};
-    Lanes lanes[2] = {};
-    LaneRegions regions = {};
-    alignas(64) float reach[kLanes];  // mean free path; 0 in lanes without a walk
-    alignas(64) std::int32_t survives[kLanes];
-    float weight[kLanes];
-    std::uint32_t tag[kLanes];
-    std::int32_t way[kLanes];  // of the next large step
-};
-
-constexpr std::size_t kStride = sizeof(Group) / sizeof(float);
-static_assert(sizeof(Group) % sizeof(float) == 0 && kGroups * kLanes <= Flights::kMost);
-
-// Lanes of all groups, group after group, by their place after those of the first, in floats.
-HWY_INLINE IntV placesOf(IntV lanes) {
-    const Int di;
-    const IntV group = hn::ShiftRight<6>(lanes);
-    return hn::Add(hn::Mul(group, hn::Set(di, static_cast<std::int32_t>(kStride - kLanes))), lanes);
-}
-static_assert(kLanes == 64);
-
-// Flights that have left the regions that they began in, of all groups: together they fill vectors.
-struct OpenFlights {
-    static constexpr std::size_t kRoom = Flights::kRoom;
-
-    alignas(64) float x[kRoom] = {}, y[kRoom] = {}, z[kRoom] = {};
-    alignas(64) float end_x[kRoom] = {}, end_y[kRoom] = {}, end_z[kRoom] = {};
-    alignas(64) std::int32_t lane[kRoom] = {};
-    std::size_t count = 0;
-
-    // Fills the last vector with the last flight: what is written for it is written twice.
-    void fill() {
-        if (count == 0) return;
-        for (float* of : {x, y, z, end_x, end_y, end_z})
-            hn::StoreU(hn::Set(Float(), of[count - 1]), Float(), of + count);
-        hn::StoreU(hn::Set(Int(), lane[count - 1]), Int(), lane + count);
-    }
-};
 
 template <class Body, class Regions, bool kIsotropic>
 class BodyWalker {
@@ -130,10 +69,7 @@ public:
             open_.count = 0;
             for (std::size_t group = 0; group < kGroups; ++group) advance(group);
             open_.fill();
-            if (looksUp())
-                lookUp();
-            else
-                testAll();
+            chooseTested();
             cross();
             if (asks_ != 0) ask();
             step();
@@ -187,115 +123,17 @@ private:
             ends |= bitsOf(hn::RebindMask(d, hn::Gt(pack.collisions, hn::Load(Int(), group.survives + at)))) << at;
         }
         open_.count = opened;
+        group.uncleared = group.walking & ~stay;
         group.collided = group.walking;
         group.ends = ends;
         group.deep = deep & stay & group.walking & ~ends;
         chunk_.flights += static_cast<std::uint64_t>(std::popcount(group.walking));
     }
 
-    bool looksUp() const {
-        if constexpr (Regions::kLooksUp) return regions_.tabulated();
-        return false;
-    }
-
-    // Lanes of all groups by their place after those of the first, in floats: together they fill vectors. The last one
-    // fills its vector.
-    struct LaneList {
-        HWY_ALIGN std::int32_t places[kGroups * kLanes];
-        std::uint16_t lanes[kGroups * kLanes];  // group and lane
-        std::size_t count = 0, filled = 0;
-
-        LaneList(const Group* groups, std::uint64_t Group::*set) {
-            for (std::size_t group = 0; group < kGroups; ++group)
-                for (std::uint64_t bits = groups[group].*set; bits != 0; bits &= bits - 1) {
-                    const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
-                    lanes[count] = static_cast<std::uint16_t>(group * kLanes + lane);
-                    places[count++] = static_cast<std::int32_t>(group * (sizeof(Group) / sizeof(float)) + lane);
-                }
-            for (filled = count; filled % hn::Lanes(Float()) != 0; ++filled) places[filled] = places[count - 1];
-        }
-    };
-
-    // Finds regions for walks that left theirs, and lists the flights that these do not clear. What is read is asked
-    // for one pass ahead.
-    HWY_NOINLINE void lookUp() {
-        if constexpr (Regions::kLooksUp) {
-            const Float d;
-            const Int di;
-            const std::size_t width = hn::Lanes(d);
-            for (std::size_t i = 0; i < open_.count; i += width) {
-                const auto take = [i](const float* of) { return hn::Load(Float(), of + i); };
-                hn::Store(regions_.seek(take(open_.x), take(open_.y), take(open_.z)), di, places_[0] + i);
-                hn::Store(regions_.seek(take(open_.end_x), take(open_.end_y), take(open_.end_z)), di, places_[1] + i);
-            }
-            for (auto& of : places_)
-                for (std::size_t i = 0; i < open_.count; i += width)
-                    hn::Store(regions_.seekRegion(hn::Load(di, of + i)), di, of + i);
-            std::size_t kept_open = 0;
-            for (std::size_t i = 0; i < open_.count; i += width) {
-                const auto take = [i](const float* of) { return hn::Load(Float(), of + i); };
-                const FloatV px = take(open_.x), py = take(open_.y), pz = take(open_.z);
-                const FloatV qx = take(open_.end_x), qy = take(open_.end_y), qz = take(open_.end_z);
-                const FloatM listed = hn::FirstN(d, open_.count - i);
-                // Preferably the region of where the flight ends: the next one begins there.
-                const Region end = regions_.at(qx, qy, qz, hn::Load(di, places_[1] + i)),
-                             begin = regions_.at(px, py, pz, hn::Load(di, places_[0] + i));
-                const FloatM useful = end.holds(qx, qy, qz), by_end = hn::And(useful, end.holds(px, py, pz));
-                const FloatM known = begin.holds(px, py, pz), by_begin = hn::And(known, begin.holds(qx, qy, qz));
-                // Two convex regions that meet on the flight hold all of it. What rounding does to it is far below what
-                // regions were shrunk by.
-                const FloatV dx = hn::Sub(qx, px), dy = hn::Sub(qy, py), dz = hn::Sub(qz, pz);
-                const FloatV first = hn::IfThenElseZero(known, begin.reaches(px, py, pz, dx, dy, dz));
-                const FloatV last =
-                    hn::Sub(hn::Set(d, 1.0f),
-                            hn::IfThenElseZero(useful, end.reaches(qx, qy, qz, hn::Neg(dx), hn::Neg(dy), hn::Neg(dz))));
-                const auto choose = [&](FloatV a, FloatV b) { return hn::IfThenElse(useful, a, b); };
-                Region kept{choose(end.x, begin.x),
-                            choose(end.y, begin.y),
-                            choose(end.z, begin.z),
-                            choose(end.square, hn::IfThenElseZero(by_begin, begin.square)),
-                            {}};
-                for (std::size_t j = 0; j < kPlanes; ++j) {
-                    const Region::Plane &e = end.planes[j], &b = begin.planes[j];
-                    kept.planes[j] = {choose(e.nx, b.nx), choose(e.ny, b.ny), choose(e.nz, b.nz),
-                                      choose(e.offset, b.offset)};
-                }
-                const IntV lane = hn::Load(di, open_.lane + i);
-                groups_[0].regions.scatter(kept, placesOf(lane), hn::Set(d, leastStep()));
-                // A flight without length, whose parts are no numbers, is cleared.
-                const FloatM open = hn::And(listed, hn::AndNot(hn::Or(by_end, by_begin), hn::Lt(first, last)));
-                const Listing listing(open);
-                const std::size_t to = kept_open;
-                listing.append(px, flights_.x + to);
-                listing.append(py, flights_.y + to);
-                listing.append(pz, flights_.z + to);
-                listing.append(hn::Mul(last, dx), flights_.dx + to);
-                listing.append(hn::Mul(last, dy), flights_.dy + to);
-                listing.append(hn::Mul(last, dz), flights_.dz + to);
-                listing.append(hn::Div(first, last), flights_.begin + to);
-                listing.append(lane, lanes_ + to);
-                kept_open += listing.count();
-            }
-            flights_.count = kept_open;
-        }
-    }
-
-    // Without tables: all flights that may meet the surface are tested.
-    void testAll() {
-        const Float d;
-        for (std::size_t i = 0; i < open_.count; i += hn::Lanes(d)) {
-            const auto copy = [&](const float* end, const float* begin, float* from, float* along) {
-                const FloatV start = hn::Load(d, begin + i);
-                hn::Store(start, d, from + i);
-                hn::Store(hn::Sub(hn::Load(d, end + i), start), d, along + i);
-            };
-            copy(open_.end_x, open_.x, flights_.x, flights_.dx);
-            copy(open_.end_y, open_.y, flights_.y, flights_.dy);
-            copy(open_.end_z, open_.z, flights_.z, flights_.dz);
-            hn::Store(hn::Zero(d), d, flights_.begin + i);
-            hn::Store(hn::Load(Int(), open_.lane + i), Int(), lanes_ + i);
-        }
-        flights_.count = open_.count;
+    void chooseTested() {
+        if constexpr (Regions::kLooksUp)
+            if (regions_.tabulated()) return lookUp(regions_, leastStep(), open_, groups_[0].regions, tested_);
+        testAll(open_, tested_);
     }
 
     // Square of 0 where walks take no large steps: nothing is that near to a middle.
@@ -371,10 +209,12 @@ private:
 
     // Tests flights that no region clears against the surface.
     void cross() {
-        for (Group& group : groups_) group.uncleared = 0;
-        for (std::size_t i = 0; i < flights_.count; ++i) groupOf(i).uncleared |= bitOf(i);
-        chunk_.rays += flights_.count;
-        body_.cross(flights_, hits_);
+        if (tested_.flights.count < open_.count) {
+            for (Group& group : groups_) group.uncleared = 0;
+            for (std::size_t i = 0; i < tested_.flights.count; ++i) groupOf(i).uncleared |= bitOf(i);
+        }
+        chunk_.rays += tested_.flights.count;
+        body_.cross(tested_.flights, hits_);
         lose();
         for (Group& group : groups_) {
             group.doubtful &= group.uncleared;  // the others are inside
@@ -398,23 +238,23 @@ private:
         meet();
     }
 
-    Group& groupOf(std::size_t flight) { return groups_[lanes_[flight] / static_cast<std::int32_t>(kLanes)]; }
-    std::size_t laneOf(std::size_t flight) const { return static_cast<std::size_t>(lanes_[flight]) % kLanes; }
+    Group& groupOf(std::size_t flight) { return groups_[tested_.lanes[flight] / static_cast<std::int32_t>(kLanes)]; }
+    std::size_t laneOf(std::size_t flight) const { return static_cast<std::size_t>(tested_.lanes[flight]) % kLanes; }
     std::uint64_t bitOf(std::size_t flight) const { return std::uint64_t{1} << laneOf(flight); }
 
     // What ends beyond the body without having met anything had slipped out before.
     void lose() {
         const Float d;
         const Vec3f low = body_.low(), high = body_.high();
-        for (std::size_t at = 0; at < flights_.count; at += hn::Lanes(d)) {
+        for (std::size_t at = 0; at < tested_.flights.count; at += hn::Lanes(d)) {
             const auto within = [&](const float* from, const float* along, float least, float most) {
                 const FloatV end = hn::Add(hn::Load(d, from + at), hn::Load(d, along + at));
                 return hn::And(hn::Gt(end, hn::Set(d, least)), hn::Lt(end, hn::Set(d, most)));
             };
-            const FloatM inside = hn::And(within(flights_.x, flights_.dx, low.x, high.x),
-                                          hn::And(within(flights_.y, flights_.dy, low.y, high.y),
-                                                  within(flights_.z, flights_.dz, low.z, high.z)));
-            for (std::uint64_t out = bitsOf(hn::AndNot(inside, hn::FirstN(d, flights_.count - at))); out != 0;
+            const FloatM inside = hn::And(within(tested_.flights.x, tested_.flights.dx, low.x, high.x),
+                                          hn::And(within(tested_.flights.y, tested_.flights.dy, low.y, high.y),
+                                                  within(tested_.flights.z, tested_.flights.dz, low.z, high.z)));
+            for (std::uint64_t out = bitsOf(hn::AndNot(inside, hn::FirstN(d, tested_.flights.count - at))); out != 0;
                  out &= out - 1) {
                 const auto flight = static_cast<std::int32_t>(at) + std::countr_zero(out);
                 const auto listed = [flight](std::span<const std::int32_t> list) {
@@ -441,9 +281,10 @@ private:
         }
     }
 
-    // Leaves through the surface or is reflected by it.
+    // Leaves through the surface or is reflected by it. What is random is drawn in the order of the hits, however many
+    // lanes a vector has.
     HWY_NOINLINE void meet() {
-        const Float d;
+        const std::size_t width = hn::Lanes(Float());
         for (std::size_t i = 0; i < hits_.count; ++i) {
             const auto flight = static_cast<std::size_t>(hits_.flight[i]);
             Group& group = groupOf(flight);
@@ -451,38 +292,21 @@ private:
             group.ends &= ~bitOf(flight);
             const Lanes& before = from(group);
             to(group).collisions[lane] = before.collisions[lane];
-            direction_[0][i] = before.u[lane], direction_[1][i] = before.v[lane], direction_[2][i] = before.w[lane];
-            if (medium_.eta != 1) draw_[i] = static_cast<std::int32_t>(random_.next() >> 32);
+            meeting_.u[i] = before.u[lane], meeting_.v[i] = before.v[lane], meeting_.w[i] = before.w[lane];
+            if (medium_.eta != 1) meeting_.bits[i] = static_cast<std::int32_t>(random_.next() >> 32);
         }
         std::size_t exits = 0;
-        for (std::size_t at = 0; at < hits_.count; at += hn::Lanes(d)) {
-            const FloatV u = hn::Load(d, direction_[0] + at), v = hn::Load(d, direction_[1] + at),
-                         w = hn::Load(d, direction_[2] + at);
-            const FloatV nx = hn::Load(d, hits_.nx + at), ny = hn::Load(d, hits_.ny + at),
-                         nz = hn::Load(d, hits_.nz + at);
-            const FloatV cosine = hn::MulAdd(u, nx, hn::MulAdd(v, ny, hn::Mul(w, nz)));
-            FloatM reflected = hn::FirstN(d, 0);
-            if (medium_.eta != 1) {
-                const FloatV clamped = hn::Min(hn::Max(cosine, hn::Zero(d)), hn::Set(d, 1.0f));
-                const FloatV part = fresnel(clamped, hn::Set(d, static_cast<float>(medium_.eta))).reflectance;
-                reflected = hn::Lt(uniform(hn::Load(Int(), draw_ + at)), part);
-            }
-            const FloatV twice = hn::Add(cosine, cosine);
-            FloatV ru = hn::NegMulAdd(twice, nx, u), rv = hn::NegMulAdd(twice, ny, v), rw = hn::NegMulAdd(twice, nz, w);
-            const FloatV square = hn::MulAdd(ru, ru, hn::MulAdd(rv, rv, hn::Mul(rw, rw)));
-            const FloatV mend = hn::NegMulAdd(hn::Set(d, 0.5f), square, hn::Set(d, 1.5f));
-            hn::Store(hn::Mul(ru, mend), d, reflected_[0] + at);
-            hn::Store(hn::Mul(rv, mend), d, reflected_[1] + at);
-            hn::Store(hn::Mul(rw, mend), d, reflected_[2] + at);
-            const std::uint64_t some = bitsOf(hn::FirstN(d, hits_.count - at)), back = bitsOf(reflected) & some;
-            for (std::uint64_t rest = back; rest != 0; rest &= rest - 1) {
+        for (std::size_t at = 0; at < hits_.count; at += width) {
+            const std::size_t some = std::min(width, hits_.count - at);
+            const std::uint64_t all = (std::uint64_t{1} << some) - 1, back = meeting_.reflect(hits_, at, medium_.eta);
+            for (std::uint64_t rest = all & back; rest != 0; rest &= rest - 1) {
                 const std::size_t i = at + static_cast<std::size_t>(std::countr_zero(rest));
                 const auto flight = static_cast<std::size_t>(hits_.flight[i]);
                 Group& group = groupOf(flight);
                 put(group, to(group), laneOf(flight), {hits_.inside_x[i], hits_.inside_y[i], hits_.inside_z[i]},
-                    {reflected_[0][i], reflected_[1][i], reflected_[2][i]});
+                    {meeting_.u[i], meeting_.v[i], meeting_.w[i]});
             }
-            for (std::uint64_t rest = some & ~back; rest != 0; rest &= rest - 1) {
+            for (std::uint64_t rest = all & ~back; rest != 0; rest &= rest - 1) {
                 const std::size_t i = at + static_cast<std::size_t>(std::countr_zero(rest));
                 body_.seekCell(static_cast<std::uint32_t>(hits_.triangle[i]));
                 exits_[exits++] = static_cast<std::uint16_t>(i);
@@ -583,12 +407,9 @@ private:
     BodyChunk chunk_;
     Group groups_[kGroups];
     OpenFlights open_;
-    alignas(64) std::int32_t places_[2][OpenFlights::kRoom];  // of regions of the begins and ends of open flights
-    Flights flights_;                                         // to be tested, and
-    alignas(64) std::int32_t lanes_[Flights::kRoom];          // whose they are
+    TestedFlights tested_;
     FlightHits hits_;
-    alignas(64) float direction_[3][FlightHits::kRoom], reflected_[3][FlightHits::kRoom];  // of the flights that hit
-    alignas(64) std::int32_t draw_[FlightHits::kRoom];
+    SurfaceMeeting meeting_;
     std::uint16_t exits_[Flights::kMost];
     alignas(64) std::int32_t survives_[kLanes];
     std::size_t survives_left_ = 0;
@@ -617,45 +438,6 @@ namespace searchlight {
 
 HWY_EXPORT(walkBall);
 HWY_EXPORT(walkMesh);
-
-std::int32_t waysFor(std::uint64_t walks) {
-    // Beyond 4,096 what walks share is lost among what they do not; below 64 lanes would be idle.
-    return static_cast<std::int32_t>(std::bit_floor(std::clamp(walks / 16, std::uint64_t{64}, std::uint64_t{4096})));
-}
-
-std::vector<double> BodyChunk::pack() const {
-    const auto number = [](std::uint64_t count) { return static_cast<double>(count); };
-    std::vector<double> values{entry.arrived,
-                               entry.entered,
-                               number(entry.arrivals),
-                               number(entry.walks),
-                               number(candidates),
-                               number(collisions),
-                               number(flights),
-                               number(rays),
-                               number(taken_back),
-                               number(lost),
-                               left,
-                               absorbed,
-                               exits.x,
-                               exits.y,
-                               exits.z};
-    for (const CellExit& exit : cells) values.insert(values.end(), {number(exit.cell), exit.weight});
-    return values;
-}
-
-void BodyChunk::unpack(std::span<const double> values) {
-    const double* next = values.data();
-    const auto count = [&](std::uint64_t& value) { value = static_cast<std::uint64_t>(*next++); };
-    entry.arrived = *next++, entry.entered = *next++;
-    count(entry.arrivals), count(entry.walks), count(candidates), count(collisions), count(flights), count(rays);
-    count(taken_back), count(lost);
-    left = *next++, absorbed = *next++;
-    exits = {next[0], next[1], next[2]};
-    cells.clear();
-    for (next += 3; next != values.data() + values.size(); next += 2)
-        cells.push_back({static_cast<std::uint32_t>(next[0]), static_cast<float>(next[1])});
-}
 
 BodyChunk walkBodyChunk(const Ball& ball, const BodyMedium& medium, WalkSource& source, SplitMix64 seeds) {
     return HWY_DYNAMIC_DISPATCH(walkBall)(ball, medium, source, seeds);
