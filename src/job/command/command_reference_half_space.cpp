@@ -110,11 +110,10 @@ void refuseExact(const Options& options, const Subject& subject) {
     for (int c = 0; c < subject.medium.channels; ++c) {
         if (!subject.medium.scatters(c)) continue;
         const HalfSpaceProblem problem = halfSpaceProblem(subject.medium, c, options.number("angle_deg"));
-        const std::string reason = whyNotOrdinates(problem);
-        if (!whyNotExact(problem).empty() && !reason.empty())
+        if (const std::string reason = whyNotExactHalfSpace(problem); !reason.empty())
             throw usageError(
                 fmt::format("{} has no exact solution: {}", subject.name, reason),
-                "--exact takes normal incidence, |g| up to 0.5, eta 0.7 to 2 and albedo up to 0.99999; without "
+                "--exact takes normal incidence, |g| up to 0.9, eta 0.5 to 2 and albedo up to 0.99999; without "
                 "it the problem is walked");
     }
 }
@@ -283,7 +282,7 @@ Command referenceHalfSpaceCommand() {
                  {.name = "exact",
                   .type = ParamType::toggle,
                   .value = false,
-                  .doc = "solve without walks: normal incidence, |g| up to 0.5, eta 0.7 to 2; stderr then bounds the "
+                  .doc = "solve without walks: normal incidence, |g| up to 0.9, eta 0.5 to 2; stderr then bounds the "
                          "numerical error"},
                  option::walkBackend(),
                  option::threads(),

@@ -12,6 +12,7 @@
 #include "job/reference/slab_json.h"
 #include "job/shared_options.h"
 #include "transport/exact/ordinate_slab.h"
+#include "transport/exact/ordinate_totals.h"
 #include "transport/mcml/mcml_run.h"
 #include "transport/walk/radial_edges.h"
 
@@ -95,21 +96,28 @@ Json problemJson(const SlabProblem& problem, const SlabOptions& options) {
 
 // Says why where there is no exact solution.
 void refuseExact(const Options& options, const SlabSubject& subject) {
-    for (const char* name : {"walks", "estimator", "angles", "depths", "depth", "resume", "until_error"})
+    for (const char* name : {"walks", "estimator", "depths", "depth", "resume", "until_error"})
         if (options.given(name))
             throw usageError(fmt::format("--exact and --{} exclude each other",
                                          name == std::string_view("until_error") ? "until-error" : name),
                              "give one of the two");
     if (options.toggle("maps") || options.number("grid") > 0)
-        throw usageError("--exact has no --maps and no --grid", "it solves for R(r), T(r) and totals");
+        throw usageError("--exact has no --maps and no --grid", "it solves for R(r), T(r), angles and totals");
     if (options.text("backend") == "gl")
         throw usageError("--backend gl and --exact exclude each other", "OpenGL walks");
-    if (const std::string reason = whyNotOrdinateSlab(subject.problem); !reason.empty())
+    if (const std::string reason = whyNotOrdinateTotals(subject.problem); !reason.empty())
         throw usageError(fmt::format("{} has no exact solution: {}", subject.name, reason), ordinateSlabsCovered());
+    const std::string reason = whyNotOrdinateSlab(subject.problem);
+    for (const char* name : {"edges", "bins", "radii_max"})
+        if (options.given(name) && !reason.empty())
+            throw usageError(fmt::format("{} has no exact R(r) and T(r): {}", subject.name, reason),
+                             "without radii --exact gives totals and angles");
 }
 
 JobResult solveReferenceSlab(const Job& job, const SlabSubject& subject, Observer& observer) {
-    const SlabResult solved = solveSlab(subject.problem, subject.options, observer);
+    const std::string no_profile = whyNotOrdinateSlab(subject.problem);
+    const SlabResult solved = no_profile.empty() ? solveSlab(subject.problem, subject.options, observer)
+                                                 : solveSlabTotals(subject.problem, subject.options.angles);
     Json document = documentJson("searchlight-slab/1", job);
     document["per"] = "incident";
     const Json numbers = exactSlabJson(subject.problem, subject.options, solved);
@@ -117,8 +125,9 @@ JobResult solveReferenceSlab(const Job& job, const SlabSubject& subject, Observe
     document["estimator"] = "exact";
     JobResult result;
     result.json = jsonText(document);
-    result.text = fmt::format("{}, exact, 0 deg, per unit incident flux\n{}", subject.name,
+    result.text = fmt::format("{}, exact, {} deg, per unit incident flux\n{}", subject.name, subject.problem.angle_deg,
                               exactSlabText(subject.problem, solved));
+    if (!no_profile.empty()) result.text += fmt::format("no R(r) and T(r): {}\n", no_profile);
     writeDocument(result, job);
     return result;
 }
@@ -246,8 +255,8 @@ Command referenceSlabCommand() {
                     {.name = "exact",
                      .type = ParamType::toggle,
                      .value = false,
-                     .doc = "solve R(r), T(r) and totals without walks: normal incidence, no clear layers, |g| up "
-                            "to 0.9; stderr then estimates the numerical error"},
+                     .doc = "solve totals, angles and, at normal incidence, R(r) and T(r) without walks: |g| up to "
+                            "0.9; stderr then estimates the numerical error"},
                     option::walkBackend(),
                     option::threads(),
                     option::untilError("R, T and A"),

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "transport/walk/decay.h"
 #include "transport/walk/fresnel.h"
 #include "transport/walk/quadrature.h"
 
@@ -59,19 +60,14 @@ private:
     bool up_;
 };
 
-// Integral of exp(-rate h) from 0 to h.
-double decayed(double rate, double h) {
-    if (rate * h < 1e-8) return h * (1 - 0.5 * rate * h);
-    return -std::expm1(-rate * h) / rate;
-}
-
 // What leaves along one direction, from so near to the side where it leaves: of light of the beam that came from there,
 // and of light that came towards it.
 struct Straight {
     double sine, lateral, towards, towards_rate, with, with_rate;
 
     double within(double h) const {
-        return towards * decayed(towards_rate, h) + (with > 0 ? with * decayed(with_rate, h) : 0);
+        const auto collide = [h](double rate) { return decayed(rate, std::exp(-rate * h), h); };
+        return towards * collide(towards_rate) + (with > 0 ? with * collide(with_rate) : 0);
     }
 };
 
