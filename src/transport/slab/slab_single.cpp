@@ -160,7 +160,8 @@ SlabSingle slabSingle(const SlabWalk& walk, std::span<const double> edges, const
                 const double sine = std::sqrt(one_minus_mu * (1 + mu));
                 const Way way = ways.at(sine);
                 const auto phase = [&](double cosine) {
-                    return 0.5 * (1 - g * g) / std::pow(1 + g * g - 2 * g * cosine, 1.5);
+                    const double q = 1 + g * g - 2 * g * cosine;
+                    return 0.5 * (1 - g * g) / (q * std::sqrt(q));
                 };
                 const double weight = (1 - layer.absorbed) * per_mm * way.passes * std::exp(-way.tau) * dmu;
                 const double towards = weight * against * phase(-mu), with = weight * along * through * phase(mu);
