@@ -91,6 +91,7 @@ int runArguments(int argc, char** argv) {
         const JobResult result = run(*arguments.job, engine, observer);
         observer.finish();
         speak(arguments.json ? result.json + "\n" : result.text);
+        if (!result.failure.empty()) throw inputError(result.failure);
         if (result.interrupted) return exitCode(ErrorKind::interrupted);
         return result.passed ? 0 : 1;
     };
@@ -100,8 +101,10 @@ int runArguments(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    std::signal(SIGINT, interrupt);
-    std::signal(SIGTERM, interrupt);
+    struct sigaction action = {};
+    action.sa_handler = interrupt;  // without SA_RESTART: a pipe that nobody writes is not waited for again
+    sigaction(SIGINT, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
     std::signal(SIGPIPE, SIG_IGN);
     Ranks ranks(argc, argv);
     int code = 0;
@@ -114,6 +117,9 @@ int main(int argc, char** argv) {
     } catch (const std::bad_alloc&) {
         code = exitCode(ErrorKind::input);
         message = "out of memory";
+    } catch (const std::exception& error) {
+        code = exitCode(ErrorKind::input);
+        message = error.what();
     }
     // What is wrong for all, one says.
     const Ranks::Ends ends = ranks.meet(code);

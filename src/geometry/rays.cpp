@@ -6,6 +6,8 @@
 #include <bit>
 #include <cassert>
 #include <cmath>
+#include <cstring>
+#include <numeric>
 
 #include "base/error.h"
 
@@ -148,6 +150,39 @@ void RayScene::intersect(std::span<const Ray> rays, std::span<RayHit> results, b
                       impl_->normals[triangle]};
         }
     });
+}
+
+std::size_t RayScene::intersect(const RayColumns& rays, std::span<ListedHit> hits) const {
+    assert(rays.count <= hits.size());
+    RTCIntersectContext context = makeContext(false);
+    RTCRayHit8 packet;
+    std::fill_n(packet.ray.time, packet_size, 0.0f);
+    std::fill_n(packet.ray.mask, packet_size, ~0u);
+    std::fill_n(packet.ray.flags, packet_size, 0u);
+    std::iota(packet.ray.id, packet.ray.id + packet_size, 0u);
+    std::size_t found = 0;
+    for (std::size_t first = 0; first < rays.count; first += packet_size) {
+        const std::size_t lanes = std::min<std::size_t>(packet_size, rays.count - first);
+        alignas(64) int valid[packet_size];
+        for (std::size_t lane = 0; lane < packet_size; ++lane) valid[lane] = lane < lanes ? -1 : 0;
+        const auto copy = [first](float* to, const float* from) {
+            std::memcpy(to, from + first, packet_size * sizeof(float));
+        };
+        copy(packet.ray.org_x, rays.x), copy(packet.ray.org_y, rays.y), copy(packet.ray.org_z, rays.z);
+        copy(packet.ray.dir_x, rays.dx), copy(packet.ray.dir_y, rays.dy), copy(packet.ray.dir_z, rays.dz);
+        copy(packet.ray.tnear, rays.t_min);
+        std::fill_n(packet.ray.tfar, packet_size, rays.t_max);
+        std::fill_n(packet.hit.geomID, packet_size, RTC_INVALID_GEOMETRY_ID);
+        rtcIntersect8(valid, impl_->scene.get(), &context, &packet);
+        for (unsigned lane = 0; lane < lanes; ++lane) {
+            if (packet.hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID) continue;
+            const std::uint32_t triangle = packet.hit.primID[lane];
+            hits[found++] = {
+                static_cast<std::uint32_t>(first) + lane,
+                {packet.ray.tfar[lane], triangle, packet.hit.u[lane], packet.hit.v[lane], impl_->normals[triangle]}};
+        }
+    }
+    return found;
 }
 
 void RayScene::occluded(std::span<const Ray> rays, std::span<std::uint8_t> results, bool coherent) const {

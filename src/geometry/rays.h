@@ -25,6 +25,19 @@ struct RayHit {
     Vec3f normal;        ///< geometric, unit, outward by the triangle's orientation, whichever side was hit
 };
 
+/// Rays side by side, and how far to look along all of them. Up to 7 numbers behind the last of each list may be read.
+struct RayColumns {
+    const float *x, *y, *z, *dx, *dy, *dz, *t_min;
+    std::size_t count = 0;
+    float t_max = std::numeric_limits<float>::infinity();
+};
+
+/// The hit of one of many rays.
+struct ListedHit {
+    std::uint32_t ray = 0;
+    RayHit hit;
+};
+
 /// Immutable once built; all queries may run on many threads at once. Both sides of a triangle are hit; one without
 /// area is not. Watertight at shared edges. Of rays that meet a vertex within a few ulps about 1 in 400 slips through,
 /// as Embree rounds the edges around it one by one: a walk that finds no way out of a closed mesh has to try again.
@@ -46,6 +59,10 @@ public:
     /// occluded() says 1 or 0. `coherent`: neighbours in the list start near one another and point the same way.
     void intersect(std::span<const Ray> rays, std::span<RayHit> results, bool coherent) const;
     void occluded(std::span<const Ray> rays, std::span<std::uint8_t> results, bool coherent) const;
+
+    /// The nearest hits of those that meet something, in their order, and how many these are; `hits` as long as the
+    /// rays.
+    std::size_t intersect(const RayColumns& rays, std::span<ListedHit> hits) const;
 
     /// The same for parallel rays to infinity from many origins, which are fastest when neighbours in the list are
     /// neighbours in space.

@@ -45,8 +45,7 @@ TEST_F(Program, AResumedSphereHasTheNumbersOfOneThatNeverStopped) {
 }
 
 TEST_F(Program, CtrlCLeavesAValidFileThatGoesOn) {
-    const Output stopped =
-        run(half_space + "--walks 1e13 --resume walks.json -o part.json", "timeout --preserve-status -s INT 2");
+    const Output stopped = interrupt(half_space + "--walks 1e13 --resume walks.json -o part.json");
     EXPECT_EQ(stopped.exit_code, 130) << stopped.err;
     const json part = json::parse(readFile(folder() / "part.json"));
     EXPECT_EQ(part["interrupted"], true);
@@ -95,6 +94,12 @@ TEST_F(Program, DamagedWalksAreRefusedAndKept) {
         {"/format", "searchlight-walks/2", "'searchlight-walks/2' cannot be read (a newer version wrote it)"},
         {"/states", json::array(), "should hold 3 walks"},
         {"/states/0/chunks", -1, "/states/0/chunks"},
+        {"/states/0/chunk_size", 9007199254740992, "/states/0/walks: does not fit the number of chunks"},
+        {"/states/0/chunks", 0, "/states/0/walks: does not fit the number of chunks"},
+        {"/states/0/walks", 2000, "/states/0/sums/0: is not of as many walks as the file says"},
+        {"/estimators", 1, "/estimators: these are walks by another version of the estimators"},
+        {"/problem", 5, "/problem: these are walks of another problem: it differs"},
+        {"/problem/a~0b", 5, "/problem/a~0b: these are walks of another problem: /a~0b differs"},
         {"/states/0/chunks", 3, "does not have as many batches as the walk has chunks"},
         {"/states/0/sums/0", json::array({1, 2}), "is no list of sums"},
         {"/states/0/sums/1/4", "many", "holds what is no number"},
@@ -106,9 +111,15 @@ TEST_F(Program, DamagedWalksAreRefusedAndKept) {
         writeFile(folder() / "walks.json", bad.dump());
         const Output output = run(half_space + "--walks 1000 --resume walks.json");
         EXPECT_EQ(output.exit_code, 3) << damage.pointer;
+        EXPECT_THAT(output.err, testing::StartsWith("searchlight: walks.json:"));
         EXPECT_THAT(output.err, HasSubstr(damage.message));
         EXPECT_EQ(readFile(folder() / "walks.json"), bad.dump());
     }
+    json older = document;
+    older.erase("estimators");
+    writeFile(folder() / "walks.json", older.dump());
+    EXPECT_THAT(run(half_space + "--walks 1000 --resume walks.json").err,
+                HasSubstr("another version of the estimators"));
     writeFile(folder() / "walks.json", good.substr(0, good.size() / 2));
     EXPECT_EQ(run(half_space + "--walks 1000 --resume walks.json").exit_code, 3);
 }

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "base/error.h"
+#include "base/random.h"
 
 namespace searchlight {
 namespace {
@@ -190,6 +191,40 @@ TEST(Rays, ManyAtOnceAreTheSameAsOneByOne) {
             }
         }
     }
+}
+
+TEST(Rays, SideBySideListTheHitsOfOneByOne) {
+    const Mesh mesh = sphere(4);
+    const RayScene scene(mesh);
+    SplitMix64 random(8);
+    constexpr std::size_t count = 1003;  // fills no packet
+    std::vector<float> columns[7];
+    for (auto& column : columns) column.resize(count + 15);
+    std::vector<Ray> rays;
+    for (std::size_t i = 0; i < count; ++i) {
+        for (std::size_t k = 0; k < 6; ++k) columns[k][i] = static_cast<float>(2 * random.uniform() - 1);
+        columns[6][i] = static_cast<float>(0.2 * random.uniform());
+        rays.push_back({{columns[0][i], columns[1][i], columns[2][i]},
+                        {columns[3][i], columns[4][i], columns[5][i]},
+                        columns[6][i],
+                        0.7f});
+    }
+    std::vector<ListedHit> hits(count);
+    const auto of = [&](std::size_t k) { return columns[k].data(); };
+    const std::size_t found = scene.intersect({of(0), of(1), of(2), of(3), of(4), of(5), of(6), count, 0.7f}, hits);
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto hit = scene.intersect(rays[i]);
+        if (!hit) continue;
+        ASSERT_LT(next, found);
+        EXPECT_EQ(hits[next].ray, i);
+        EXPECT_EQ(hits[next].hit.triangle, hit->triangle);
+        EXPECT_NEAR(hits[next].hit.t, hit->t, 1e-5);
+        EXPECT_EQ(hits[next].hit.normal, hit->normal);
+        ++next;
+    }
+    EXPECT_EQ(next, found);
+    EXPECT_GT(found, 100u);
 }
 
 TEST(Rays, FromOffsetOriginsMissTheirOwnTriangleAtAnyScaleAndPlace) {

@@ -166,6 +166,47 @@ TEST(TriangleGrid, FollowsFlightsThatBeginBeyondIt) {
     EXPECT_LE(other, 2) << "what grazes an edge may slip past it";
 }
 
+// Flights side by side have the hits that they have one by one; their points lie on the triangles, and below them.
+TEST(TriangleGrid, ListsTheHitsOfFlightsSideBySide) {
+    const Mesh mesh = sphereMesh(2, 4);
+    const TriangleGrid grid = buildTriangleGrid(mesh, 0.15);
+    std::vector<Ray> flights = flightsNear(mesh, 1.0, 20'000);
+    std::vector<RayHit> truth(flights.size());
+    std::vector<Vec3> positions(flights.size());
+    grid.intersect(flights, truth, positions);
+    constexpr float nudge = 1e-3f;
+    std::size_t met = 0;
+    for (std::size_t first = 0; first < flights.size(); first += 250) {
+        Flights some;
+        for (; some.count < 250 && first + some.count < flights.size(); ++some.count) {
+            const auto [origin, direction, t_min, t_max] = flights[first + some.count];
+            some.x[some.count] = origin.x, some.y[some.count] = origin.y, some.z[some.count] = origin.z;
+            some.dx[some.count] = direction.x, some.dy[some.count] = direction.y, some.dz[some.count] = direction.z;
+        }
+        FlightHits hits;
+        grid.intersect(some, nudge, hits);
+        std::size_t next = 0;
+        for (std::size_t i = 0; i < some.count; ++i) {
+            if (std::isinf(truth[first + i].t)) continue;
+            ASSERT_LT(next, hits.count);
+            const RayHit& hit = truth[first + i];
+            ASSERT_EQ(hits.flight[next], static_cast<std::int32_t>(i));
+            EXPECT_EQ(hits.triangle[next], static_cast<std::int32_t>(hit.triangle));
+            EXPECT_EQ(hits.u[next], hit.u);
+            const Vec3 normal = toDouble(Vec3f{hits.nx[next], hits.ny[next], hits.nz[next]});
+            const Vec3 at = toDouble(Vec3f{hits.x[next], hits.y[next], hits.z[next]});
+            const Vec3 inside = toDouble(Vec3f{hits.inside_x[next], hits.inside_y[next], hits.inside_z[next]});
+            EXPECT_LT(length(normal - toDouble(hit.normal)), 3e-7);
+            EXPECT_LT(length(at - positions[first + i]), 4e-7);
+            EXPECT_LT(length(at - static_cast<double>(nudge) * normal - inside), 4e-7);
+            ++next;
+        }
+        EXPECT_EQ(next, hits.count);
+        met += next;
+    }
+    EXPECT_GT(met, 1'000u);
+}
+
 TEST(TriangleGrid, AgreesBitForBitOnTargetsWithFma) {
     if (!hasInstructionSet(HWY_AVX3)) GTEST_SKIP() << "one instruction set with FMA";
     const Mesh mesh = sphereMesh(2, 4);

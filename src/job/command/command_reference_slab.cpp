@@ -35,8 +35,13 @@ McmlRun runOf(const std::string& path, int number) {
 
 // 10 transport mean free paths of the first layer that does anything.
 double naturalRange(const SlabProblem& problem) {
-    for (const SlabLayer& layer : problem.layers)
-        if (!layer.clear()) return 10 / (layer.sigma_a + (1 - layer.meanCosine()) * layer.sigma_s);
+    for (const SlabLayer& layer : problem.layers) {
+        if (layer.clear()) continue;
+        const double range = 10 / (layer.sigma_a + (1 - layer.meanCosine()) * layer.sigma_s);
+        if (!(range <= 1e9))
+            throw inputError("a layer is too clear for radii to be chosen", "give --radii-max and --depth");
+        return range;
+    }
     return 10;
 }
 
@@ -119,11 +124,11 @@ JobResult solveReferenceSlab(const Job& job, const SlabSubject& subject, Observe
     for (const auto& [key, value] : numbers.items()) document[key] = value;
     document["estimator"] = "exact";
     JobResult result;
-    result.json = document.dump(1);
+    result.json = jsonText(document);
     result.text = fmt::format("{}, exact, {} deg, per unit incident flux\n{}", subject.name, subject.problem.angle_deg,
                               exactSlabText(subject.problem, solved));
     if (!no_profile.empty()) result.text += fmt::format("no R(r) and T(r): {}\n", no_profile);
-    if (!job.output.empty()) writeFile(job.output, result.json + "\n");
+    writeDocument(result, job);
     return result;
 }
 
@@ -163,10 +168,11 @@ JobResult runReferenceSlab(const Job& job, Engine& engine, Observer& observer) {
         walk.gl = &engine.context();
     }
     if (options.text("estimator") == "best" && !walk.gl) walk.estimator = SlabEstimator::best;
-    SavedWalks saved(options, job, problemJson(subject.problem, walk), 1);
+    SavedWalks saved(options, job, problemJson(subject.problem, walk), 1, observer);
     walk.control = saved.control(0);
     const SlabResult walked = walkSlab(subject.problem, walk, observer);
-    saved.save();
+    JobResult result;
+    saved.save(result);
     if (walked.interrupted && walked.walks == 0) throw interruptedError();
 
     Json document = documentJson("searchlight-slab/1", job);
@@ -176,14 +182,14 @@ JobResult runReferenceSlab(const Job& job, Engine& engine, Observer& observer) {
     document["estimator"] = walked.estimator == SlabEstimator::best ? "best" : "analogue";
     document["foresees"] = walked.foresees;
     document["backend"] = options.text("backend");
-    JobResult result;
-    result.json = document.dump(1);
+    if (walked.interrupted) document["interrupted"] = true;
+    result.json = jsonText(document);
     result.text =
         fmt::format("{}, {:.3g} walks, {} deg, per unit incident flux\n{}", subject.name,
                     static_cast<double>(walked.walks), subject.problem.angle_deg, slabText(subject.problem, walked));
     result.interrupted = walked.interrupted;
     if (walked.interrupted) result.text += "interrupted\n";
-    if (!job.output.empty()) writeFile(job.output, result.json + "\n");
+    writeDocument(result, job);
     return result;
 }
 

@@ -24,15 +24,13 @@
 #include <cmath>
 #include <memory>
 
-#include "transport/walk/fresnel.h"
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "transport/mesh/body_walk.cpp"
 #include <hwy/foreach_target.h>
 
-#include "transport/mesh/lane_regions-inl.h"
 #include "transport/mesh/large_steps-inl.h"
-#include "transport/walk/lane_walk-inl.h"
+#include "transport/mesh/open_flights-inl.h"
+#include "transport/mesh/surface_meeting-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace searchlight {
@@ -40,35 +38,6 @@ namespace HWY_NAMESPACE {
 
 // A walk that is taken back more often is in a place that is none: a fold, or two surfaces that cross.
 constexpr int kMostTakenBack = 16;
-
-// Groups of lanes take turns: while the memory fetches regions for one, the processor walks the others, and rays of
-// all are asked together.
-constexpr std::size_t kGroups = 4;
-
-struct Group {
-    struct Sure {
-        Vec3f position, direction;
-        std::int32_t collisions = 0;
-    };
-
-    std::uint64_t walking = 0;    // a bit per lane
-    std::uint64_t uncleared = 0;  // flights that may have met the surface
-    std::uint64_t ends = 0;       // absorbed
-    std::uint64_t deep = 0;       // where a large step fits
-    std::uint64_t collided = 0;   // at a collision after the step, and
-    std::uint64_t scattered = 0;  // before it
-    std::uint64_t doubtful = 0;   // flights since `sure` were tested and met nothing
-    Sure sure[kLanes];            // of those lanes: the start of the last flight known to begin inside
-    int taken_back[kLanes] = {};
-    Lanes lanes[2] = {};
-    LaneRegions regions = {};
-    alignas(64) float reach[kLanes];  // mean free path; 0 in lanes without a walk
-    alignas(64) std::int32_t survives[kLanes];
-    float weight[kLanes];
-    std::uint32_t tag[kLanes];
-    std::int32_t way[kLanes];          // of the next large step
-    float begin[kLanes], end[kLanes];  // of an uncleared flight: the part that no region holds
-};
 
 template <class Body, class Regions, bool kIsotropic>
 class BodyWalker {
@@ -84,8 +53,6 @@ public:
         for (Group& group : groups_) {
             seed(group.lanes[0], seeds);
             for (auto& plane : group.regions.planes) std::ranges::fill(plane.offset, 1.0f);
-            std::ranges::fill(group.begin, 0.0f);
-            std::ranges::fill(group.end, 1.0f);
             std::ranges::fill(group.regions.deep, deepAtFirst());
         }
         random_ = SplitMix64(seeds.next());
@@ -99,8 +66,10 @@ public:
             for (std::size_t lane = 0; lane < kLanes; ++lane) start(group, group.lanes[0], lane);
         const auto walks = [](const Group& group) { return group.walking != 0; };
         while (std::ranges::any_of(groups_, walks)) {
-            for (Group& group : groups_) advance(group);
-            if (looksUp()) lookUp();
+            open_.count = 0;
+            for (std::size_t group = 0; group < kGroups; ++group) advance(group);
+            open_.fill();
+            chooseTested();
             cross();
             if (asks_ != 0) ask();
             step();
@@ -121,7 +90,8 @@ private:
     Lanes& from(Group& group) const { return group.lanes[now_]; }
     Lanes& to(Group& group) const { return group.lanes[now_ ^ 1]; }
 
-    HWY_INLINE void advance(Group& group) {
+    HWY_INLINE void advance(std::size_t which) {
+        Group& group = groups_[which];
         const Float d;
         const std::size_t width = hn::Lanes(d);
         const double g = medium_.g;
@@ -130,16 +100,29 @@ private:
         const Lanes& before = from(group);
         Lanes& after = to(group);
         std::uint64_t stay = 0, ends = 0, deep = 0;
+        std::size_t opened = open_.count;
         for (std::size_t at = 0; at < kLanes; at += width) {
             Pack pack = load(before, at);
-            fly(pack, hn::Mul(exponential(pack.random.next()), hn::Load(d, group.reach + at)));
+            const FloatV x = pack.x, y = pack.y, z = pack.z, reach = hn::Load(d, group.reach + at);
+            fly(pack, hn::Mul(exponential(pack.random.next()), reach));
             const Region region = group.regions.load(at);
-            stay |= bitsOf(region.holds(pack.x, pack.y, pack.z)) << at;
+            const FloatM stays = region.holds(pack.x, pack.y, pack.z);
+            stay |= bitsOf(stays) << at;
+            const Listing leaving(hn::AndNot(stays, hn::Gt(reach, hn::Zero(d))));
+            leaving.append(x, open_.x + opened);
+            leaving.append(y, open_.y + opened);
+            leaving.append(z, open_.z + opened);
+            leaving.append(pack.x, open_.end_x + opened);
+            leaving.append(pack.y, open_.end_y + opened);
+            leaving.append(pack.z, open_.end_z + opened);
+            leaving.append(hn::Iota(Int(), static_cast<std::int32_t>(which * kLanes + at)), open_.lane + opened);
+            opened += leaving.count();
             deep |= bitsOf(hn::Lt(region.away(pack.x, pack.y, pack.z), hn::Load(d, group.regions.deep + at))) << at;
             scatter<kIsotropic>(pack, asymmetry, half_qq);
             store(pack, after, at);
             ends |= bitsOf(hn::RebindMask(d, hn::Gt(pack.collisions, hn::Load(Int(), group.survives + at)))) << at;
         }
+        open_.count = opened;
         group.uncleared = group.walking & ~stay;
         group.collided = group.walking;
         group.ends = ends;
@@ -147,95 +130,10 @@ private:
         chunk_.flights += static_cast<std::uint64_t>(std::popcount(group.walking));
     }
 
-    bool looksUp() const {
-        if constexpr (Regions::kLooksUp) return regions_.tabulated();
-        return false;
-    }
-
-    // Lanes of all groups by their place after those of the first, in floats: together they fill vectors. The last one
-    // fills its vector.
-    struct LaneList {
-        HWY_ALIGN std::int32_t places[kGroups * kLanes];
-        std::uint8_t lanes[kGroups * kLanes];  // group and lane
-        std::size_t count = 0, filled = 0;
-
-        LaneList(const Group* groups, std::uint64_t Group::*set) {
-            static_assert(sizeof(Group) % sizeof(float) == 0 && kGroups * kLanes <= 256);
-            for (std::size_t group = 0; group < kGroups; ++group)
-                for (std::uint64_t bits = groups[group].*set; bits != 0; bits &= bits - 1) {
-                    const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
-                    lanes[count] = static_cast<std::uint8_t>(group * kLanes + lane);
-                    places[count++] = static_cast<std::int32_t>(group * (sizeof(Group) / sizeof(float)) + lane);
-                }
-            for (filled = count; filled % hn::Lanes(Float()) != 0; ++filled) places[filled] = places[count - 1];
-        }
-    };
-
-    static HWY_INLINE std::uint64_t bitsOf(FloatM mask) {
-        std::uint8_t bits[8] = {};
-        hn::StoreMaskBits(Float(), mask, bits);
-        return bits[0] | static_cast<std::uint64_t>(bits[1]) << 8;
-    }
-
-    // Finds regions for walks that left theirs, and so clears flights. What is read is asked for one pass ahead.
-    HWY_NOINLINE void lookUp() {
-        if constexpr (Regions::kLooksUp) {
-            const Float d;
-            const Int di;
-            const std::size_t width = hn::Lanes(d);
-            const LaneList list(groups_, &Group::uncleared);
-            HWY_ALIGN std::int32_t places[2][kGroups * kLanes];
-            const Lanes &before = from(groups_[0]), &after = to(groups_[0]);
-            for (std::size_t i = 0; i < list.filled; i += width) {
-                const IntV at = hn::Load(di, list.places + i);
-                for (const auto& [lanes, to] : {std::pair(&before, places[0]), std::pair(&after, places[1])})
-                    hn::Store(regions_.seek(hn::GatherIndex(d, lanes->x, at), hn::GatherIndex(d, lanes->y, at),
-                                            hn::GatherIndex(d, lanes->z, at)),
-                              di, to + i);
-            }
-            for (auto& of : places)
-                for (std::size_t i = 0; i < list.filled; i += width)
-                    hn::Store(regions_.seekRegion(hn::Load(di, of + i)), di, of + i);
-            for (std::size_t i = 0; i < list.filled; i += width) {
-                const IntV at = hn::Load(di, list.places + i);
-                const auto take = [&](const float* of) { return hn::GatherIndex(d, of, at); };
-                const FloatV px = take(before.x), py = take(before.y), pz = take(before.z);
-                const FloatV qx = take(after.x), qy = take(after.y), qz = take(after.z);
-                // Preferably the region of where the flight ends: the next one begins there.
-                const Region end = regions_.at(qx, qy, qz, hn::Load(di, places[1] + i)),
-                             begin = regions_.at(px, py, pz, hn::Load(di, places[0] + i));
-                const FloatM useful = end.holds(qx, qy, qz), by_end = hn::And(useful, end.holds(px, py, pz));
-                const FloatM known = begin.holds(px, py, pz), by_begin = hn::And(known, begin.holds(qx, qy, qz));
-                // Two convex regions that meet on the flight hold all of it. What rounding does to it is far below what
-                // regions were shrunk by.
-                const FloatV dx = hn::Sub(qx, px), dy = hn::Sub(qy, py), dz = hn::Sub(qz, pz);
-                const FloatV first = hn::IfThenElseZero(known, begin.reaches(px, py, pz, dx, dy, dz));
-                const FloatV last =
-                    hn::Sub(hn::Set(d, 1.0f),
-                            hn::IfThenElseZero(useful, end.reaches(qx, qy, qz, hn::Neg(dx), hn::Neg(dy), hn::Neg(dz))));
-                const FloatM by_both = hn::Ge(first, last);
-                hn::ScatterIndex(first, d, groups_[0].begin, at);
-                hn::ScatterIndex(last, d, groups_[0].end, at);
-                const auto choose = [&](FloatV a, FloatV b) { return hn::IfThenElse(useful, a, b); };
-                Region kept{choose(end.x, begin.x),
-                            choose(end.y, begin.y),
-                            choose(end.z, begin.z),
-                            choose(end.square, hn::IfThenElseZero(by_begin, begin.square)),
-                            {}};
-                for (std::size_t j = 0; j < kPlanes; ++j) {
-                    const Region::Plane &e = end.planes[j], &b = begin.planes[j];
-                    kept.planes[j] = {choose(e.nx, b.nx), choose(e.ny, b.ny), choose(e.nz, b.nz),
-                                      choose(e.offset, b.offset)};
-                }
-                groups_[0].regions.scatter(kept, at, hn::Set(d, leastStep()));
-                std::uint64_t cleared = bitsOf(hn::Or(by_both, hn::Or(by_end, by_begin)));
-                if (i + width > list.count) cleared &= (std::uint64_t{1} << (list.count - i)) - 1;
-                for (; cleared != 0; cleared &= cleared - 1) {
-                    const unsigned lane = list.lanes[i + static_cast<std::size_t>(std::countr_zero(cleared))];
-                    groups_[lane / kLanes].uncleared &= ~(std::uint64_t{1} << lane % kLanes);
-                }
-            }
-        }
+    void chooseTested() {
+        if constexpr (Regions::kLooksUp)
+            if (regions_.tabulated()) return lookUp(regions_, leastStep(), open_, groups_[0].regions, tested_);
+        testAll(open_, tested_);
     }
 
     // Square of 0 where walks take no large steps: nothing is that near to a middle.
@@ -311,69 +209,129 @@ private:
 
     // Tests flights that no region clears against the surface.
     void cross() {
-        std::size_t count = 0;
+        if (tested_.flights.count < open_.count) {
+            for (Group& group : groups_) group.uncleared = 0;
+            for (std::size_t i = 0; i < tested_.flights.count; ++i) groupOf(i).uncleared |= bitOf(i);
+        }
+        chunk_.rays += tested_.flights.count;
+        body_.cross(tested_.flights, hits_);
+        lose();
         for (Group& group : groups_) {
             group.doubtful &= group.uncleared;  // the others are inside
-            const Lanes &before = from(group), &after = to(group);
-            for (std::uint64_t rest = group.uncleared; rest != 0; rest &= rest - 1) {
-                const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
-                const Vec3f start{before.x[lane], before.y[lane], before.z[lane]};
-                flights_[count++] = {start,
-                                     {after.x[lane] - start.x, after.y[lane] - start.y, after.z[lane] - start.z},
-                                     group.begin[lane],
-                                     group.end[lane]};
-            }
+            group.met = 0;
         }
-        chunk_.rays += count;
-        body_.cross({flights_, count}, {crossings_, count}, false);
-        Crossing* crossing = crossings_;
-        for (Group& group : groups_)
-            for (std::uint64_t rest = group.uncleared; rest != 0; rest &= rest - 1, ++crossing)
-                // Most often nothing is met, as before.
-                if (crossing->what != Crossing::What::none || (group.doubtful & rest & -rest) == 0)
-                    settle(group, static_cast<std::size_t>(std::countr_zero(rest)), *crossing);
+        for (std::size_t i = 0; i < hits_.count; ++i) {
+            const auto flight = static_cast<std::size_t>(hits_.flight[i]);
+            groupOf(flight).met |= bitOf(flight);
+        }
+        for (Group& group : groups_) {
+            const Lanes& before = from(group);
+            for (std::uint64_t rest = group.uncleared & ~(group.doubtful | group.met); rest != 0; rest &= rest - 1) {
+                const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+                group.sure[lane] = {{before.x[lane], before.y[lane], before.z[lane]},
+                                    {before.u[lane], before.v[lane], before.w[lane]},
+                                    before.collisions[lane]};
+            }
+            group.doubtful = group.uncleared & ~group.met;
+        }
+        for (std::size_t i = 0; i < hits_.lost_count; ++i) takeBack(static_cast<std::size_t>(hits_.lost[i]));
+        meet();
     }
 
-    void settle(Group& group, std::size_t lane, Crossing& crossing) {
-        const std::uint64_t bit = std::uint64_t{1} << lane;
-        const Lanes& before = from(group);
-        Lanes& after = to(group);
-        if (crossing.what != Crossing::What::surface && (group.doubtful & bit) == 0) {
-            group.doubtful |= bit;
-            group.sure[lane] = {{before.x[lane], before.y[lane], before.z[lane]},
-                                {before.u[lane], before.v[lane], before.w[lane]},
-                                before.collisions[lane]};
+    Group& groupOf(std::size_t flight) { return groups_[tested_.lanes[flight] / static_cast<std::int32_t>(kLanes)]; }
+    std::size_t laneOf(std::size_t flight) const { return static_cast<std::size_t>(tested_.lanes[flight]) % kLanes; }
+    std::uint64_t bitOf(std::size_t flight) const { return std::uint64_t{1} << laneOf(flight); }
+
+    // What ends beyond the body without having met anything had slipped out before.
+    void lose() {
+        const Float d;
+        const Vec3f low = body_.low(), high = body_.high();
+        for (std::size_t at = 0; at < tested_.flights.count; at += hn::Lanes(d)) {
+            const auto within = [&](const float* from, const float* along, float least, float most) {
+                const FloatV end = hn::Add(hn::Load(d, from + at), hn::Load(d, along + at));
+                return hn::And(hn::Gt(end, hn::Set(d, least)), hn::Lt(end, hn::Set(d, most)));
+            };
+            const FloatM inside = hn::And(within(tested_.flights.x, tested_.flights.dx, low.x, high.x),
+                                          hn::And(within(tested_.flights.y, tested_.flights.dy, low.y, high.y),
+                                                  within(tested_.flights.z, tested_.flights.dz, low.z, high.z)));
+            for (std::uint64_t out = bitsOf(hn::AndNot(inside, hn::FirstN(d, tested_.flights.count - at))); out != 0;
+                 out &= out - 1) {
+                const auto flight = static_cast<std::int32_t>(at) + std::countr_zero(out);
+                const auto listed = [flight](std::span<const std::int32_t> list) {
+                    return std::ranges::find(list, flight) != list.end();
+                };
+                if (!listed({hits_.flight, hits_.count}) && !listed({hits_.lost, hits_.lost_count}))
+                    hits_.lost[hits_.lost_count++] = flight;
+            }
         }
-        if (crossing.what == Crossing::What::none) return;
-        group.ends &= ~bit;
-        after.collisions[lane] = before.collisions[lane];
-        if (crossing.what == Crossing::What::surface) {
-            group.doubtful &= ~bit;
-            meet(group, lane, crossing);
-        } else if (++group.taken_back[lane] > kMostTakenBack) {
+    }
+
+    void takeBack(std::size_t flight) {
+        Group& group = groupOf(flight);
+        const std::size_t lane = laneOf(flight);
+        group.ends &= ~bitOf(flight);
+        if (++group.taken_back[lane] > kMostTakenBack) {
             ++chunk_.lost;
-            end(group, lane, after.collisions[lane]);
+            end(group, lane, from(group).collisions[lane]);
         } else {
             ++chunk_.taken_back;
             const Group::Sure& sure = group.sure[lane];
-            put(group, after, lane, sure.position, sure.direction);
-            after.collisions[lane] = sure.collisions;
+            put(group, to(group), lane, sure.position, sure.direction);
+            to(group).collisions[lane] = sure.collisions;
         }
     }
 
-    // Leaves through the surface or is reflected by it.
-    void meet(Group& group, std::size_t lane, Crossing& crossing) {
-        const Lanes& before = from(group);
-        const Vec3 direction{before.u[lane], before.v[lane], before.w[lane]};
-        const double cosine = std::clamp(dot(direction, crossing.normal), 0.0, 1.0);
-        if (medium_.eta != 1 && random_.uniform() < internalReflectance(medium_.eta, cosine)) {
-            put(group, to(group), lane, crossing.inside, toFloat(normalize(direction - 2 * cosine * crossing.normal)));
-            return;
+    // Leaves through the surface or is reflected by it. What is random is drawn in the order of the hits, however many
+    // lanes a vector has.
+    HWY_NOINLINE void meet() {
+        const std::size_t width = hn::Lanes(Float());
+        for (std::size_t i = 0; i < hits_.count; ++i) {
+            const auto flight = static_cast<std::size_t>(hits_.flight[i]);
+            Group& group = groupOf(flight);
+            const std::size_t lane = laneOf(flight);
+            group.ends &= ~bitOf(flight);
+            const Lanes& before = from(group);
+            to(group).collisions[lane] = before.collisions[lane];
+            meeting_.u[i] = before.u[lane], meeting_.v[i] = before.v[lane], meeting_.w[i] = before.w[lane];
+            if (medium_.eta != 1) meeting_.bits[i] = static_cast<std::int32_t>(random_.next() >> 32);
         }
+        std::size_t exits = 0;
+        for (std::size_t at = 0; at < hits_.count; at += width) {
+            const std::size_t some = std::min(width, hits_.count - at);
+            const std::uint64_t all = (std::uint64_t{1} << some) - 1, back = meeting_.reflect(hits_, at, medium_.eta);
+            for (std::uint64_t rest = all & back; rest != 0; rest &= rest - 1) {
+                const std::size_t i = at + static_cast<std::size_t>(std::countr_zero(rest));
+                const auto flight = static_cast<std::size_t>(hits_.flight[i]);
+                Group& group = groupOf(flight);
+                put(group, to(group), laneOf(flight), {hits_.inside_x[i], hits_.inside_y[i], hits_.inside_z[i]},
+                    {meeting_.u[i], meeting_.v[i], meeting_.w[i]});
+            }
+            for (std::uint64_t rest = all & ~back; rest != 0; rest &= rest - 1) {
+                const std::size_t i = at + static_cast<std::size_t>(std::countr_zero(rest));
+                body_.seekCell(static_cast<std::uint32_t>(hits_.triangle[i]));
+                exits_[exits++] = static_cast<std::uint16_t>(i);
+            }
+        }
+        for (std::size_t i = 0; i < exits; ++i) leave(exits_[i]);
+    }
+
+    void leave(std::size_t i) {
+        const auto flight = static_cast<std::size_t>(hits_.flight[i]);
+        Group& group = groupOf(flight);
+        const std::size_t lane = laneOf(flight);
+        const Lanes& before = from(group);
+        Crossing crossing;
+        crossing.what = Crossing::What::surface;
+        crossing.position = {hits_.x[i], hits_.y[i], hits_.z[i]};
+        crossing.inside = {hits_.inside_x[i], hits_.inside_y[i], hits_.inside_z[i]};
+        crossing.normal = toDouble(Vec3f{hits_.nx[i], hits_.ny[i], hits_.nz[i]});
+        crossing.triangle = static_cast<std::uint32_t>(hits_.triangle[i]);
+        crossing.u = hits_.u[i], crossing.v = hits_.v[i];
+        crossing.cell = body_.cellOf(crossing);
         const float weight = group.weight[lane];
         chunk_.left += weight;
         chunk_.exits = chunk_.exits + static_cast<double>(weight) * toDouble(crossing.position);
-        crossing.cell = body_.cellOf(crossing);
+        const Vec3 direction = toDouble(Vec3f{before.u[lane], before.v[lane], before.w[lane]});
         if ((group.scattered >> lane & 1) != 0)
             source_.leaveScattered(group.tag[lane], weight, {before.x[lane], before.y[lane], before.z[lane]}, direction,
                                    crossing, chunk_.cells);
@@ -416,9 +374,24 @@ private:
         group.tag[lane] = entry.tag;
         if (medium_.ways > 0) group.way[lane] = static_cast<std::int32_t>(random_.next() & 0xFFFF);
         // Absorption is drawn at once for the whole walk: it survives n collisions with probability albedo^n.
-        if (collisions_per_log_ > 0)
-            group.survives[lane] =
-                static_cast<std::int32_t>(std::min(-std::log(random_.uniform()) * collisions_per_log_, 0x1p30));
+        if (collisions_per_log_ > 0) group.survives[lane] = survives();
+    }
+
+    // How many collisions a walk survives; drawn for many at once.
+    std::int32_t survives() {
+        if (survives_left_ == 0) {
+            const Int di;
+            for (std::size_t i = 0; i < kLanes; i += 2) {
+                const std::uint64_t bits = random_.next();
+                survives_[i] = static_cast<std::int32_t>(bits),
+                survives_[i + 1] = static_cast<std::int32_t>(bits >> 32);
+            }
+            const FloatV scale = hn::Set(Float(), static_cast<float>(collisions_per_log_));
+            for (std::size_t at = 0; at < kLanes; at += hn::Lanes(di))
+                hn::Store(collisionsSurvived(hn::Load(di, survives_ + at), scale), di, survives_ + at);
+            survives_left_ = kLanes;
+        }
+        return survives_[--survives_left_];
     }
 
     const Body& body_;
@@ -433,8 +406,13 @@ private:
     int now_ = 0;                // which lanes a step begins from
     BodyChunk chunk_;
     Group groups_[kGroups];
-    Ray flights_[kGroups * kLanes];
-    Crossing crossings_[kGroups * kLanes];
+    OpenFlights open_;
+    TestedFlights tested_;
+    FlightHits hits_;
+    SurfaceMeeting meeting_;
+    std::uint16_t exits_[Flights::kMost];
+    alignas(64) std::int32_t survives_[kLanes];
+    std::size_t survives_left_ = 0;
 };
 
 template <class Body, class Regions>
@@ -460,45 +438,6 @@ namespace searchlight {
 
 HWY_EXPORT(walkBall);
 HWY_EXPORT(walkMesh);
-
-std::int32_t waysFor(std::uint64_t walks) {
-    // Beyond 4,096 what walks share is lost among what they do not; below 64 lanes would be idle.
-    return static_cast<std::int32_t>(std::bit_floor(std::clamp(walks / 16, std::uint64_t{64}, std::uint64_t{4096})));
-}
-
-std::vector<double> BodyChunk::pack() const {
-    const auto number = [](std::uint64_t count) { return static_cast<double>(count); };
-    std::vector<double> values{entry.arrived,
-                               entry.entered,
-                               number(entry.arrivals),
-                               number(entry.walks),
-                               number(candidates),
-                               number(collisions),
-                               number(flights),
-                               number(rays),
-                               number(taken_back),
-                               number(lost),
-                               left,
-                               absorbed,
-                               exits.x,
-                               exits.y,
-                               exits.z};
-    for (const CellExit& exit : cells) values.insert(values.end(), {number(exit.cell), exit.weight});
-    return values;
-}
-
-void BodyChunk::unpack(std::span<const double> values) {
-    const double* next = values.data();
-    const auto count = [&](std::uint64_t& value) { value = static_cast<std::uint64_t>(*next++); };
-    entry.arrived = *next++, entry.entered = *next++;
-    count(entry.arrivals), count(entry.walks), count(candidates), count(collisions), count(flights), count(rays);
-    count(taken_back), count(lost);
-    left = *next++, absorbed = *next++;
-    exits = {next[0], next[1], next[2]};
-    cells.clear();
-    for (next += 3; next != values.data() + values.size(); next += 2)
-        cells.push_back({static_cast<std::uint32_t>(next[0]), static_cast<float>(next[1])});
-}
 
 BodyChunk walkBodyChunk(const Ball& ball, const BodyMedium& medium, WalkSource& source, SplitMix64 seeds) {
     return HWY_DYNAMIC_DISPATCH(walkBall)(ball, medium, source, seeds);

@@ -103,6 +103,16 @@ Mesh alongCurve(const Mesh& mesh) {
     return sorted;
 }
 
+void put(const Crossing& crossing, FlightHits& hits, std::int32_t flight, std::size_t i) {
+    hits.flight[i] = flight;
+    hits.triangle[i] = static_cast<std::int32_t>(crossing.triangle);
+    hits.u[i] = crossing.u, hits.v[i] = crossing.v;
+    const Vec3f normal = toFloat(crossing.normal), at = crossing.position, inside = crossing.inside;
+    hits.nx[i] = normal.x, hits.ny[i] = normal.y, hits.nz[i] = normal.z;
+    hits.x[i] = at.x, hits.y[i] = at.y, hits.z[i] = at.z;
+    hits.inside_x[i] = inside.x, hits.inside_y[i] = inside.y, hits.inside_z[i] = inside.z;
+}
+
 }  // namespace
 
 void requireResolved(double longest_mm, double mfp_mm) {
@@ -127,7 +137,7 @@ SurfacePoint Ball::pointAt(double u, double v, double) const {
     return {radius_ * normal, normal};
 }
 
-void Ball::cross(std::span<const Ray> flights, std::span<Crossing> crossings, bool cells) const {
+void Ball::cross(std::span<const Ray> flights, std::span<Crossing> crossings) const {
     for (std::size_t i = 0; i < flights.size(); ++i) {
         const Vec3 p = toDouble(flights[i].origin), d = toDouble(flights[i].direction);
         // A start that rounding has put outside crosses at once if it goes outwards; a sphere loses no flight.
@@ -140,7 +150,18 @@ void Ball::cross(std::span<const Ray> flights, std::span<Crossing> crossings, bo
         crossing.what = Crossing::What::surface;
         crossing.normal = normalize(p + t * d);
         crossing.position = crossing.inside = toFloat(radius_ * crossing.normal);
-        if (cells) crossing.cell = cellOf(crossing);
+        crossing.cell = cellOf(crossing);
+    }
+}
+
+void Ball::cross(const Flights& flights, FlightHits& hits) const {
+    hits.count = hits.lost_count = 0;
+    for (std::size_t i = 0; i < flights.count; ++i) {
+        const Ray flight{
+            {flights.x[i], flights.y[i], flights.z[i]}, {flights.dx[i], flights.dy[i], flights.dz[i]}, 0, 1};
+        Crossing crossing;
+        cross({&flight, 1}, {&crossing, 1});
+        if (crossing.what == Crossing::What::surface) put(crossing, hits, static_cast<std::int32_t>(i), hits.count++);
     }
 }
 
@@ -201,7 +222,7 @@ MeshBody::MeshBody(const Mesh& mesh, const MeshBodyOptions& options)
     const double reach = std::min(options.shortest_mfp, longest / kReachAlong);
     regions_ = options.regions ? buildSafeRegions(mesh_, cell, reach, options.threads)
                                : unknownRegion(toDouble(low), toDouble(high));
-    if (options.regions || options.grid_alone)
+    if ((options.regions || options.grid_alone) && mesh_.triangles.size() <= TriangleGrid::kMostTriangles)
         grid_ = buildTriangleGrid(mesh_, gridCell(mesh_, area, options.shortest_mfp));
     const auto end = [&](float origin, std::int32_t cells) {
         return origin + static_cast<float>(cells) * regions_.cell_mm;
@@ -229,6 +250,14 @@ Vec3f MeshBody::below(const SurfacePoint& point) const { return toFloat(point.po
 bool MeshBody::occluded(const SurfacePoint& point, Vec3 wi, double distance) const {
     const float reach = static_cast<float>(distance);
     return rays_.occluded({toFloat(point.position + nudge_ * point.normal), toFloat(wi), 0, reach});
+}
+
+void MeshBody::occluded(std::span<const Shadow> shadows, std::span<std::uint8_t> hidden) const {
+    std::vector<Ray> rays;
+    rays.reserve(shadows.size());
+    for (const auto& [point, wi, distance] : shadows)
+        rays.push_back({toFloat(point.position + nudge_ * point.normal), toFloat(wi), 0, static_cast<float>(distance)});
+    rays_.occluded(rays, hidden.first(rays.size()), true);
 }
 
 std::optional<SurfacePoint> MeshBody::seen(Vec3 origin, Vec3 direction) const {
@@ -262,7 +291,7 @@ std::optional<RayHit> MeshBody::leaving(const Ray& flight, const RayHit& entered
     return {};
 }
 
-void MeshBody::cross(std::span<const Ray> flights, std::span<Crossing> crossings, bool cells) const {
+void MeshBody::cross(std::span<const Ray> flights, std::span<Crossing> crossings) const {
     assert(flights.size() == crossings.size());
     constexpr std::size_t most = 64;
     RayHit hits[most];
@@ -274,17 +303,55 @@ void MeshBody::cross(std::span<const Ray> flights, std::span<Crossing> crossings
             grid_.intersect(some, {hits, count}, {positions, count});
         } else {
             rays_.intersect(some, {hits, count}, false);
-            for (const RayHit& hit : std::span(hits, count))
-                if (std::isfinite(hit.t)) hwy::Prefetch(&mesh_.triangles[hit.triangle]);
             for (std::size_t i = 0; i < count; ++i)
                 if (std::isfinite(hits[i].t)) positions[i] = positionOf(hits[i]);
         }
         for (std::size_t i = 0; i < count; ++i) {
             Crossing& crossing = crossings[first + i];
             crossing.what = cross(flights[first + i], hits[i], positions[i], crossing);
-            if (cells && crossing.what == Crossing::What::surface) crossing.cell = cellOf(crossing);
+            if (crossing.what == Crossing::What::surface) crossing.cell = cellOf(crossing);
         }
     }
+}
+
+void MeshBody::cross(const Flights& flights, FlightHits& hits) const {
+    hits.lost_count = 0;
+    if (!grid_.blocks.empty()) {
+        grid_.intersect(flights, static_cast<float>(nudge_), hits);
+    } else {
+        ListedHit found[Flights::kMost];
+        hits.count = rays_.intersect(
+            {flights.x, flights.y, flights.z, flights.dx, flights.dy, flights.dz, flights.begin, flights.count, 1},
+            found);
+        for (const ListedHit& hit : std::span(found, hits.count)) hwy::Prefetch(&mesh_.triangles[hit.hit.triangle]);
+        for (std::size_t i = 0; i < hits.count; ++i) {
+            Crossing crossing;
+            fill(found[i].hit, positionOf(found[i].hit), crossing);
+            put(crossing, hits, static_cast<std::int32_t>(found[i].ray), i);
+        }
+    }
+    // Nearly always all hits are from inside.
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < hits.count; ++i) {
+        const auto at = static_cast<std::size_t>(hits.flight[i]);
+        const Vec3f along{flights.dx[at], flights.dy[at], flights.dz[at]};
+        if (along.x * hits.nx[i] + along.y * hits.ny[i] + along.z * hits.nz[i] > 0) {
+            if (kept != i) hits.move(i, kept);
+            ++kept;
+            continue;
+        }
+        const Ray flight{{flights.x[at], flights.y[at], flights.z[at]}, along, flights.begin[at], 1};
+        Crossing crossing;
+        cross({&flight, 1}, {&crossing, 1});
+        if (crossing.what == Crossing::What::lost) hits.lost[hits.lost_count++] = hits.flight[i];
+        if (crossing.what == Crossing::What::surface) put(crossing, hits, hits.flight[i], kept++);
+    }
+    hits.count = kept;
+}
+
+bool MeshBody::beyond(Vec3f end) const {
+    return !(end.x > low_.x && end.x < high_.x && end.y > low_.y && end.y < high_.y && end.z > low_.z &&
+             end.z < high_.z);
 }
 
 Vec3 MeshBody::positionOf(const RayHit& hit) const {
@@ -292,6 +359,14 @@ Vec3 MeshBody::positionOf(const RayHit& hit) const {
     const Vec3 p = toDouble(mesh_.positions[a]);
     return p + static_cast<double>(hit.u) * (toDouble(mesh_.positions[b]) - p) +
            static_cast<double>(hit.v) * (toDouble(mesh_.positions[c]) - p);
+}
+
+void MeshBody::fill(const RayHit& hit, Vec3 at, Crossing& crossing) const {
+    crossing.normal = toDouble(hit.normal);
+    crossing.position = toFloat(at);
+    crossing.inside = toFloat(at - nudge_ * crossing.normal);
+    crossing.triangle = hit.triangle;
+    crossing.u = hit.u, crossing.v = hit.v;
 }
 
 Crossing::What MeshBody::cross(const Ray& flight, RayHit hit, Vec3 at, Crossing& crossing) const {
@@ -302,21 +377,12 @@ Crossing::What MeshBody::cross(const Ray& flight, RayHit hit, Vec3 at, Crossing&
         if (std::isfinite(hit.t)) at = positionOf(hit);
     }
     if (!std::isfinite(hit.t)) {
-        const auto beyond = [&](float from, float along, float low, float high) {
-            const float end = from + flight.t_max * along;
-            return !(end > low && end < high);
-        };
         const Vec3f from = flight.origin, along = flight.direction;
-        if (beyond(from.x, along.x, low_.x, high_.x) || beyond(from.y, along.y, low_.y, high_.y) ||
-            beyond(from.z, along.z, low_.z, high_.z))
-            return Crossing::What::lost;
-        return Crossing::What::none;
+        const auto end = [&](float begin, float way) { return begin + flight.t_max * way; };
+        return beyond({end(from.x, along.x), end(from.y, along.y), end(from.z, along.z)}) ? Crossing::What::lost
+                                                                                          : Crossing::What::none;
     }
-    crossing.normal = toDouble(hit.normal);
-    crossing.position = toFloat(at);
-    crossing.inside = toFloat(at - nudge_ * crossing.normal);
-    crossing.triangle = hit.triangle;
-    crossing.u = hit.u, crossing.v = hit.v;
+    fill(hit, at, crossing);
     return Crossing::What::surface;
 }
 

@@ -1,7 +1,9 @@
 // Bodies that walks stay inside of: a sphere, and what a closed mesh encloses. Lengths are mm.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -9,6 +11,7 @@
 
 #include "geometry/rays.h"
 #include "scene/mesh.h"
+#include "transport/mesh/flights.h"
 #include "transport/mesh/safe_regions.h"
 #include "transport/mesh/surface_cells.h"
 #include "transport/mesh/triangle_grid.h"
@@ -19,6 +22,13 @@ namespace searchlight {
 struct SurfacePoint {
     Vec3 position;
     Vec3 normal;  ///< geometric, outward, unit
+};
+
+/// A question: does the body hide what lies `distance` away in direction wi (unit, above the surface)?
+struct Shadow {
+    SurfacePoint point;
+    Vec3 wi;
+    double distance = 0;
 };
 
 /// Where a flight meets the surface from inside.
@@ -56,17 +66,27 @@ public:
     Vec3f below(const SurfacePoint& point) const { return toFloat(point.position); }
     /// Whether the body hides what lies `distance` away in direction wi (unit, above the surface).
     bool occluded(const SurfacePoint&, Vec3, double) const { return false; }
+    /// The same for many, which are near one another: 1 or 0 for each.
+    void occluded(std::span<const Shadow> shadows, std::span<std::uint8_t> hidden) const {
+        std::fill_n(hidden.begin(), shadows.size(), std::uint8_t{0});
+    }
     /// Where a ray from outside meets the surface, its direction unit.
     std::optional<SurfacePoint> seen(Vec3 origin, Vec3 direction) const;
     /// How far it is to the surface from inside towards wi (unit), mm; nothing when light from there, `distance` away,
     /// is hidden by another part of the body.
     std::optional<double> wayOut(Vec3 position, Vec3 wi, double distance) const;
-    /// Flights that may have left: where from t_min to t_max they cross from inside. Without `cells` theirs are left to
-    /// cellOf().
-    void cross(std::span<const Ray> flights, std::span<Crossing> crossings, bool cells = true) const;
+    /// Flights that may have left: where from t_min to t_max they cross from inside.
+    void cross(std::span<const Ray> flights, std::span<Crossing> crossings) const;
+    /// The same for flights side by side. The cells are left to cellOf().
+    void cross(const Flights& flights, FlightHits& hits) const;
+    void seekCell(std::uint32_t) const {}
+    /// No walk inside is beyond this box.
+    Vec3f low() const { return {-kEndless, -kEndless, -kEndless}; }
+    Vec3f high() const { return {kEndless, kEndless, kEndless}; }
     std::uint32_t cellOf(const Crossing& crossing) const { return cells_.at(crossing.normal); }
 
 private:
+    static constexpr float kEndless = std::numeric_limits<float>::max();
     double radius_;
     SphereCells cells_;
 };
@@ -100,15 +120,23 @@ public:
     SurfacePoint pointAt(double u, double v, double w) const;
     Vec3f below(const SurfacePoint& point) const;
     bool occluded(const SurfacePoint& point, Vec3 wi, double distance) const;
+    void occluded(std::span<const Shadow> shadows, std::span<std::uint8_t> hidden) const;
     std::optional<SurfacePoint> seen(Vec3 origin, Vec3 direction) const;
     std::optional<double> wayOut(Vec3 position, Vec3 wi, double distance) const;
-    void cross(std::span<const Ray> flights, std::span<Crossing> crossings, bool cells = true) const;
+    void cross(std::span<const Ray> flights, std::span<Crossing> crossings) const;
+    void cross(const Flights& flights, FlightHits& hits) const;
+    Vec3f low() const { return low_; }
+    Vec3f high() const { return high_; }
+    /// Asks the memory for what cellOf() will read.
+    void seekCell(std::uint32_t triangle) const { cells_.seek(triangle); }
     std::uint32_t cellOf(const Crossing& crossing) const {
         return cells_.at(crossing.triangle, crossing.u, crossing.v);
     }
 
 private:
     Vec3 positionOf(const RayHit& hit) const;
+    bool beyond(Vec3f end) const;
+    void fill(const RayHit& hit, Vec3 at, Crossing& crossing) const;
     /// What becomes of a flight whose nearest hit is at `at`.
     Crossing::What cross(const Ray& flight, RayHit hit, Vec3 at, Crossing& crossing) const;
     std::optional<RayHit> leaving(const Ray& flight, const RayHit& entered) const;

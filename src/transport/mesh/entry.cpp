@@ -5,8 +5,9 @@
 #include <limits>
 #include <numbers>
 
+#include "base/directions.h"
 #include "transport/mesh/closed_body.h"
-#include "transport/walk/fresnel.h"
+#include "transport/mesh/entry_lanes.h"
 
 namespace searchlight {
 
@@ -14,11 +15,7 @@ namespace {
 
 // Directions of uniform radiance by their cosine: the weight is pi.
 Vec3 cosineDirection(Vec3 n, double u, double v) {
-    const double ring = std::sqrt(u), turn = 2 * std::numbers::pi * v;
-    // Frame of [Duff2017].
-    const double sign = std::copysign(1.0, n.z), k = -1 / (sign + n.z), xy = n.x * n.y * k;
-    const Vec3 tangent{1 + sign * n.x * n.x * k, sign * xy, -sign * n.x}, bitangent{xy, sign + n.y * n.y * k, -n.y};
-    return ring * std::cos(turn) * tangent + ring * std::sin(turn) * bitangent + std::sqrt(1 - u) * n;
+    return directionAround(n, std::sqrt(1 - u), 2 * std::numbers::pi * v);
 }
 
 }  // namespace
@@ -28,8 +25,9 @@ EntrySource<Body>::EntrySource(const Body& body, const Illumination& illuminatio
                                std::uint64_t candidates, SplitMix64 random)
     : body_(body), illumination_(illumination), options_(options), candidates_(candidates), random_(random) {}
 
+// All but the direction of uniform radiance.
 template <class Body>
-auto EntrySource<Body>::draw() -> Candidate {
+auto EntrySource<Body>::drawPoint() -> Candidate {
     Candidate candidate;
     const double stratum = (static_cast<double>(tried_++) + random_.uniform()) / static_cast<double>(candidates_);
     if (const auto* pencil = std::get_if<PencilLight>(&illumination_)) {
@@ -43,12 +41,11 @@ auto EntrySource<Body>::draw() -> Candidate {
         body_.pointAt(std::min(stratum, 0x1.fffffffffffffp-1), random_.uniform(), random_.uniform());
     candidate.position = point.position;
     candidate.normal = point.normal;
-    const double u = random_.uniform(), v = random_.uniform(), w = random_.uniform();
     if (std::holds_alternative<UniformLight>(illumination_)) {
         candidate.weight = std::numbers::pi * body_.area();
-        candidate.wi = cosineDirection(point.normal, u, v);
         return candidate;
     }
+    const double u = random_.uniform(), v = random_.uniform(), w = random_.uniform();
     const LightSample light = std::get<const LightSampler*>(illumination_)->sample(point.position, u, v, w);
     candidate.weight =
         body_.area() * light.irradiance_over_pdf[options_.channel] * std::max(0.0, dot(light.wi, point.normal));
@@ -60,31 +57,72 @@ auto EntrySource<Body>::draw() -> Candidate {
 }
 
 template <class Body>
+auto EntrySource<Body>::draw() -> Candidate {
+    Candidate candidate = drawPoint();
+    if (std::holds_alternative<UniformLight>(illumination_))
+        candidate.wi = cosineDirection(candidate.normal, random_.uniform(), random_.uniform());
+    return candidate;
+}
+
+template <class Body>
 bool EntrySource<Body>::next(Entry& entry) {
-    while (tried_ < candidates_) {
-        const Candidate candidate = draw();
-        const double part = candidate.weight / options_.whole, weight = std::max(part, 1.0);
+    while (entries_.empty())
+        if (!fill()) return false;
+    entry = entries_.back();
+    entries_.pop_back();
+    return true;
+}
+
+template <class Body>
+bool EntrySource<Body>::fill() {
+    if (tried_ >= candidates_) return false;
+    const auto word = [this] { return static_cast<std::int32_t>(random_.next() >> 32); };
+    Candidate drawn[EntryLanes::kMost];
+    double weights[EntryLanes::kMost];
+    Shadow shadows[EntryLanes::kMost];
+    std::size_t count = 0, asked = 0;
+    while (count < EntryLanes::kMost && tried_ < candidates_) {
+        const Candidate candidate = drawPoint();
+        const double part = candidate.weight / options_.whole;
         if (!(part > 0) || (part < 1 && random_.uniform() >= part)) continue;
-        const SurfacePoint point{candidate.position, candidate.normal};
-        if (candidate.shadowed && body_.occluded(point, candidate.wi, candidate.distance)) continue;
-        totals_.arrived += weight;
-        ++totals_.arrivals;
-        const double c = dot(candidate.wi, candidate.normal), eta = options_.eta;
-        if (!(c > 0)) continue;  // grazing, by rounding
-        const double sine2 = (1 - c) * (1 + c) / (eta * eta);
-        if (eta != 1 && sine2 >= 1) continue;
-        const double t = eta == 1 ? c : std::sqrt(1 - sine2);
-        if (eta != 1 && random_.uniform() < fresnelReflectance(1, c, eta, t)) continue;
-        totals_.entered += weight;
-        ++totals_.walks;
-        const Vec3 in = (-1 / eta) * candidate.wi + (c / eta - t) * candidate.normal;
-        entry.direction = toFloat(normalize(in));
-        entry.position = body_.below(point);
-        entry.weight = static_cast<float>(weight);
-        entry.single = candidate.single;
-        return true;
+        if (candidate.shadowed)
+            shadows[asked++] = {{candidate.position, candidate.normal}, candidate.wi, candidate.distance};
+        weights[count] = std::max(part, 1.0);
+        drawn[count++] = candidate;
     }
-    return false;
+    std::uint8_t hidden[EntryLanes::kMost];
+    if (asked > 0) body_.occluded(std::span<const Shadow>(shadows, asked), hidden);
+    EntryLanes lanes;
+    asked = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        if (drawn[i].shadowed && hidden[asked++] != 0) continue;
+        const Vec3f n = toFloat(drawn[i].normal), wi = toFloat(drawn[i].wi);
+        const std::size_t lane = lanes.count++;
+        drawn[lane] = drawn[i], weights[lane] = weights[i];
+        lanes.nx[lane] = n.x, lanes.ny[lane] = n.y, lanes.nz[lane] = n.z;
+        lanes.wx[lane] = wi.x, lanes.wy[lane] = wi.y, lanes.wz[lane] = wi.z;
+        lanes.bits[lane] = word();
+    }
+    if (std::holds_alternative<UniformLight>(illumination_)) {
+        alignas(64) std::int32_t heights[EntryLanes::kMost] = {}, turns[EntryLanes::kMost] = {};
+        for (std::size_t i = 0; i < lanes.count; ++i) heights[i] = word(), turns[i] = word();
+        drawDiffuse(lanes, heights, turns);
+    }
+    refractInwards(lanes, options_.eta);
+    for (std::size_t i = lanes.count; i-- > 0;) {
+        totals_.arrived += weights[i];
+        ++totals_.arrivals;
+        if ((lanes.enters >> i & 1) == 0) continue;
+        totals_.entered += weights[i];
+        ++totals_.walks;
+        Entry entry;
+        entry.direction = {lanes.dx[i], lanes.dy[i], lanes.dz[i]};
+        entry.position = body_.below({drawn[i].position, drawn[i].normal});
+        entry.weight = static_cast<float>(weights[i]);
+        entry.single = drawn[i].single;
+        entries_.push_back(entry);
+    }
+    return true;
 }
 
 template <class Body>

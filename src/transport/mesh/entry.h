@@ -106,12 +106,17 @@ public:
     Candidate draw();
 
 private:
+    /// A batch of candidates, of which some enter. False when there are no more.
+    bool fill();
+    Candidate drawPoint();
+
     const Body& body_;
     const Illumination& illumination_;
     EntryOptions options_;
     std::uint64_t candidates_, tried_ = 0;
     SplitMix64 random_;
     EntryTotals totals_;
+    std::vector<Entry> entries_;  ///< that wait; the last one is next
 };
 
 }  // namespace searchlight

@@ -1,5 +1,7 @@
 #include "transport/mesh/surface_cells.h"
 
+#include <hwy/cache_control.h>
+
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -109,6 +111,8 @@ SurfaceCells::SurfaceCells(const Mesh& mesh, double area_mm2) : parts_(mesh.tria
     if (static_cast<double>(areas_.size()) > kMostCells)
         throw inputError("the surface would be cut into more than 16 million cells", "choose larger cells");
 }
+
+void SurfaceCells::seek(std::uint32_t triangle) const { hwy::Prefetch(&parts_[triangle]); }
 
 std::uint32_t SurfaceCells::at(std::uint32_t triangle, float u, float v) const {
     assert(triangle < parts_.size());

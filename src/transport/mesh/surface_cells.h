@@ -32,6 +32,8 @@ public:
 
     /// The cell of the point (1 - u - v) p0 + u p1 + v p2 of a triangle.
     std::uint32_t at(std::uint32_t triangle, float u, float v) const;
+    /// Asks the memory for what at() will read.
+    void seek(std::uint32_t triangle) const;
 
     /// As many points in every cell (rounding may take or add one), of the mesh that the cells were made from.
     CellPoints sample(const Mesh& mesh, int per_cell, std::uint64_t seed) const;

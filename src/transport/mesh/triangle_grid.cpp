@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "geometry/vertex_normals.h"
@@ -85,6 +86,44 @@ double lowestInside(const std::array<Vec3, 3>& triangle, Vec3 n, Vec3 middle, do
     return lowest;
 }
 
+// Triangles in as many blocks as they need: a block is full when it has no place for a triangle or for its vertices.
+void appendBlocks(const Mesh& mesh, std::span<const std::uint32_t> triangles, TriangleGrid& grid) {
+    std::size_t count = 0, vertices = 0;
+    TriangleGrid::Block block;
+    const auto close = [&] {
+        for (std::size_t i = count; i < TriangleGrid::kBlock; ++i)
+            for (std::size_t k = 0; k < 3; ++k) {
+                block.corners[k][i] = block.corners[k][0];
+                block.numbers[k][i] = block.numbers[k][0];
+            }
+        grid.blocks.push_back(block);
+        block = {};
+        count = vertices = 0;
+    };
+    // The place of a vertex in the block; behind the last one if it is new.
+    const auto placeOf = [&](Vec3f p) {
+        std::size_t v = 0;
+        while (v < vertices && !(Vec3f{block.x[v], block.y[v], block.z[v]} == p)) ++v;
+        return v;
+    };
+    for (const std::uint32_t t : triangles) {
+        std::array<Vec3f, 3> corners;
+        for (std::size_t k = 0; k < 3; ++k) corners[k] = mesh.positions[mesh.triangles[t][k]];
+        const auto added = std::ranges::count_if(corners, [&](Vec3f p) { return placeOf(p) == vertices; });
+        if (count == TriangleGrid::kBlock || vertices + static_cast<std::size_t>(added) > TriangleGrid::kVertices)
+            close();
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec3f p = corners[k];
+            const std::size_t v = placeOf(p);
+            if (v == vertices) block.x[v] = p.x, block.y[v] = p.y, block.z[v] = p.z, ++vertices;
+            block.corners[k][count] = static_cast<std::uint8_t>(v);
+            block.numbers[k][count] = static_cast<std::uint8_t>(t >> 8 * k);
+        }
+        ++count;
+    }
+    if (count > 0) close();
+}
+
 }  // namespace
 
 double gridCell(const Mesh& mesh, double area_mm2, double mfp_mm) {
@@ -146,41 +185,34 @@ TriangleGrid buildTriangleGrid(const Mesh& mesh, double cell_mm) {
     std::vector<std::uint32_t> count(static_cast<std::size_t>(grid.nx) * grid.ny * grid.nz);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) forEachCell(t, [&](std::size_t at) { ++count[at]; });
     grid.bricks.resize(count.size() / 64);
-    std::size_t blocks = 0;
+    std::vector<std::uint32_t> first, listed;  // of each full cell's triangles
+    std::uint32_t total = 0;
     for (std::size_t at = 0; at < count.size(); ++at) {
         TriangleGrid::Brick& brick = grid.bricks[at / 64];
-        if (at % 64 == 0) brick.begin = static_cast<std::uint32_t>(grid.cells.size());
+        const std::size_t half = at % 64 / 32;
+        if (at % 32 == 0) brick.begin[half] = static_cast<std::uint32_t>(grid.cells.size());
         if (count[at] == 0) continue;
-        brick.full |= std::uint64_t{1} << at % 64;
-        grid.cells.push_back({static_cast<std::uint32_t>(blocks)});
-        blocks += (count[at] + TriangleGrid::kBlock - 1) / TriangleGrid::kBlock;
+        brick.full[half] |= std::uint32_t{1} << at % 32;
+        grid.cells.push_back({});
+        first.push_back(total);
+        total += count[at];
     }
-    grid.blocks.resize(blocks);
-    std::vector<std::uint32_t> placed(count.size());
+    const auto placeOf = [&grid](std::size_t at) { return grid.bricks[at / 64].placeOf(at % 64); };
+    listed.resize(total);
+    std::vector<std::uint32_t> next = first;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-        forEachCell(t, [&](std::size_t at) {
-            const std::uint32_t place = placed[at]++;
-            const bool last = placed[at] == count[at];
-            TriangleGrid::Block& block =
-                grid.blocks[grid.cells[grid.bricks[at / 64].placeOf(at % 64)].block + place / TriangleGrid::kBlock];
-            // The last triangle fills the rest of its block: met twice, it is still one hit.
-            const std::size_t begin = place % TriangleGrid::kBlock, end = last ? TriangleGrid::kBlock : begin + 1;
-            for (std::size_t i = begin; i < end; ++i) {
-                block.triangles[i] = static_cast<std::uint32_t>(t);
-                for (std::size_t corner = 0; corner < 3; ++corner) {
-                    const Vec3f p = mesh.positions[mesh.triangles[t][corner]];
-                    block.corners[3 * corner][i] = p.x;
-                    block.corners[3 * corner + 1][i] = p.y;
-                    block.corners[3 * corner + 2][i] = p.z;
-                }
-            }
-            if (last) block.triangles[0] |= TriangleGrid::kLast;
-        });
+        forEachCell(t, [&](std::size_t at) { listed[next[placeOf(at)]++] = static_cast<std::uint32_t>(t); });
+    for (std::size_t i = 0; i < grid.cells.size(); ++i) {
+        TriangleGrid::Cell& cell_of = grid.cells[i];
+        cell_of.block = static_cast<std::uint32_t>(grid.blocks.size());
+        appendBlocks(mesh, std::span(listed).subspan(first[i], next[i] - first[i]), grid);
+        cell_of.blocks = static_cast<std::uint32_t>(grid.blocks.size()) - cell_of.block;
+    }
     // A plane for each cell, below which a flight through it meets nothing.
     std::vector<Vec3> normals(grid.cells.size());
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
         forEachCell(t, [&](std::size_t at) {
-            Vec3& normal = normals[grid.bricks[at / 64].placeOf(at % 64)];
+            Vec3& normal = normals[placeOf(at)];
             normal = normal + triangleNormal(mesh, t);
         });
     for (std::size_t i = 0; i < normals.size(); ++i) {
@@ -192,7 +224,7 @@ TriangleGrid buildTriangleGrid(const Mesh& mesh, double cell_mm) {
     }
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
         forEachCell(t, [&](std::size_t at) {
-            const std::size_t place = grid.bricks[at / 64].placeOf(at % 64);
+            const std::size_t place = placeOf(at);
             const auto [x, y, z] = cellAt(at);
             const Vec3 middle = origin + cell * Vec3{x + 0.5, y + 0.5, z + 0.5};
             const double least = lowestInside(cornersOf(mesh, t), normals[place], middle, (0.5 + 2 * kMargin) * cell) -

@@ -10,35 +10,50 @@
 #include "base/large_pages.h"
 #include "geometry/rays.h"
 #include "scene/mesh.h"
+#include "transport/mesh/flights.h"
 
 namespace searchlight {
 
 /// The triangles of a mesh by the cells that they touch.
 struct TriangleGrid {
     static constexpr std::size_t kBlock = 8;
-    static constexpr std::uint32_t kLast = 0x8000'0000;
+    static constexpr std::size_t kVertices = 12;
 
-    /// Eight triangles of a cell, with their own corners: a test reads five cache lines side by side.
+    /// Up to eight triangles of a cell and their vertices, in three cache lines: what a test takes most time for is to
+    /// wait for them. Places that are left over repeat the first triangle: met twice, it is still one hit.
     struct alignas(64) Block {
-        float corners[9][kBlock];         ///< x, y, z of the first corner, of the second, of the third; mm
-        std::uint32_t triangles[kBlock];  ///< kLast is set in the first when the cell has no further block
+        float x[kVertices] = {}, y[kVertices] = {}, z[kVertices] = {};  ///< mm
+        std::uint8_t corners[3][kBlock] = {};                           ///< which vertices
+        std::uint8_t numbers[3][kBlock] = {};                           ///< of the triangles, lowest byte first
+
+        Vec3f corner(std::size_t triangle, std::size_t which) const {
+            const std::size_t v = corners[which][triangle];
+            return {x[v], y[v], z[v]};
+        }
+        std::uint32_t number(std::size_t triangle) const {
+            return numbers[0][triangle] | std::uint32_t{numbers[1][triangle]} << 8 |
+                   std::uint32_t{numbers[2][triangle]} << 16;
+        }
     };
+    static constexpr std::size_t kMostTriangles = std::size_t{1} << 24;
 
     /// A cell that holds triangles. What they are inside the cell lies where normal . p (mm) is at least `least`.
     struct alignas(16) Cell {
-        std::uint32_t block = 0;   ///< the first
+        std::uint32_t block = 0;   ///< the first, and
+        std::uint32_t blocks = 0;  ///< how many there are
         std::uint32_t normal = 0;  ///< whole numbers x, y, z of 10 bits, from the highest
         float least = 0;
     };
 
     /// 4 x 4 x 4 cells: most of them are empty, and walks ask for cells all over the mesh.
     struct alignas(16) Brick {
-        std::uint64_t full = 0;   ///< a bit per cell that holds triangles; x runs fastest
-        std::uint32_t begin = 0;  ///< of those: the first one's place in `cells`
+        std::uint32_t full[2] = {};   ///< a bit per cell that holds triangles; x runs fastest
+        std::uint32_t begin[2] = {};  ///< of those of each half: the first one's place in `cells`
 
         /// The place in `cells` of a cell that holds triangles.
-        std::size_t placeOf(unsigned cell) const {
-            return begin + static_cast<std::size_t>(std::popcount(full & ((std::uint64_t{1} << cell) - 1)));
+        std::size_t placeOf(std::size_t cell) const {
+            const std::uint32_t before = full[cell / 32] & ((std::uint32_t{1} << cell % 32) - 1);
+            return begin[cell / 32] + static_cast<std::size_t>(std::popcount(before));
         }
     };
 
@@ -53,9 +68,11 @@ struct TriangleGrid {
     /// meet nothing before t_min; it may begin anywhere, inside the grid it is fast. `positions` of the hits, mm.
     /// Watertight at shared edges as RayScene is. Targets with FMA agree bit for bit.
     void intersect(std::span<const Ray> flights, std::span<RayHit> hits, std::span<Vec3> positions) const;
+    /// The same for flights side by side; `lost` is left alone. What lies inside is moved inwards by so much.
+    void intersect(const Flights& flights, float nudge_mm, FlightHits& hits) const;
 };
 
-/// Cells of that side, or of the longest extent's 256th part.
+/// Cells of that side, or of the longest extent's 256th part. Of up to kMostTriangles triangles.
 TriangleGrid buildTriangleGrid(const Mesh& mesh, double cell_mm);
 
 /// A side with which flights of that mean length pass few cells, and these hold few triangles; mm.

@@ -15,14 +15,14 @@
 #include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 
+#include "transport/mesh/lane_list-inl.h"
 #include "transport/walk/lane_walk-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace searchlight {
 namespace HWY_NAMESPACE {
 
-constexpr std::size_t kMostFlights = 64;  // at once
-constexpr std::size_t kPairs = 256;
+constexpr std::size_t kPairs = 512;
 
 // A lane per triangle of a block.
 using Corner = hn::CappedTag<float, TriangleGrid::kBlock>;
@@ -46,31 +46,88 @@ HWY_INLINE CornerVec outer(const CornerVec& a, const CornerVec& b) {
             hn::MulSub(a.x, b.y, hn::Mul(a.y, b.x))};
 }
 
+// The difference of two products, which may be nearly the same.
+HWY_INLINE FloatV crossed(FloatV a, FloatV b, FloatV c, FloatV d) {
+    const FloatV rest = hn::Mul(c, d);
+    return hn::Add(hn::MulSub(a, b, rest), hn::NegMulAdd(c, d, rest));
+}
+
 class FlightTest {
 public:
-    FlightTest(const TriangleGrid& grid, const Ray* flights, std::size_t count, RayHit* hits, Vec3* positions)
-        : grid_(grid), flights_(flights), hits_(hits), positions_(positions), count_(count) {}
+    FlightTest(const TriangleGrid& grid, const Flights& flights) : grid_(grid), flights_(flights) {}
 
     void run() {
         const Float d;
         const std::size_t width = hn::Lanes(d);
-        for (std::size_t i = 0; i < count_; ++i) {
-            const Ray& f = flights_[i];
-            ox_[i] = f.origin.x, oy_[i] = f.origin.y, oz_[i] = f.origin.z;
-            dx_[i] = f.t_max * f.direction.x, dy_[i] = f.t_max * f.direction.y, dz_[i] = f.t_max * f.direction.z;
-            begin_[i] = f.t_min / f.t_max;
-            hits_[i] = {std::numeric_limits<float>::infinity()};
+        for (std::size_t at = 0; at < flights_.count; at += width) {
+            hn::Store(hn::Set(d, std::numeric_limits<float>::infinity()), d, t_ + at);
+            pass(at);
         }
-        // The last vector is filled with its last flight, which then counts as one that has ended.
-        for (std::size_t i = count_; i % width != 0; ++i) {
-            ox_[i] = ox_[count_ - 1], oy_[i] = oy_[count_ - 1], oz_[i] = oz_[count_ - 1];
-            dx_[i] = dx_[count_ - 1], dy_[i] = dy_[count_ - 1], dz_[i] = dz_[count_ - 1];
-            begin_[i] = begin_[count_ - 1];
-        }
-        for (std::size_t at = 0; at < count_; at += width) pass(at);
         test();
-        for (std::size_t i = 0; i < count_; ++i)
-            if (std::isfinite(hits_[i].t)) finish(i);
+    }
+
+    // The nearest hit of one flight.
+    bool hit(std::size_t flight, RayHit& hit, Vec3& position) const {
+        hit = {t_[flight]};
+        if (std::isinf(t_[flight])) return false;
+        const auto [block, lane] = metBy(flight);
+        const auto corner = [&, block = block, lane = lane](std::size_t i) { return toDouble(block->corner(lane, i)); };
+        const Vec3 first = corner(0), to_second = corner(1) - first, to_third = corner(2) - first;
+        hit.u = u_[flight], hit.v = v_[flight];
+        hit.triangle = block->number(lane);
+        hit.normal = toFloat(normalize(searchlight::cross(to_second, to_third)));
+        position = first + static_cast<double>(hit.u) * to_second + static_cast<double>(hit.v) * to_third;
+        return true;
+    }
+
+    // Those of all.
+    void list(float nudge, FlightHits& hits) const {
+        const Float d;
+        const Int di;
+        const std::size_t width = hn::Lanes(d);
+        hits.count = 0;
+        for (std::size_t at = 0; at < flights_.count; at += width) {
+            const FloatM met = hn::And(hn::Lt(hn::Load(d, t_ + at), hn::Set(d, std::numeric_limits<float>::infinity())),
+                                       hn::FirstN(d, flights_.count - at));
+            const Listing listing(met);
+            listing.append(hn::Iota(di, static_cast<std::int32_t>(at)), hits.flight + hits.count);
+            hits.count += listing.count();
+        }
+        HWY_ALIGN float corners[9][16] = {};
+        for (std::size_t at = 0; at < hits.count; at += width) {
+            for (std::size_t i = 0; i < width && at + i < hits.count; ++i) {
+                const auto flight = static_cast<std::size_t>(hits.flight[at + i]);
+                const auto [block, lane] = metBy(flight);
+                for (std::size_t k = 0; k < 3; ++k) {
+                    const Vec3f p = block->corner(lane, k);
+                    corners[3 * k][i] = p.x, corners[3 * k + 1][i] = p.y, corners[3 * k + 2][i] = p.z;
+                }
+                hits.triangle[at + i] = static_cast<std::int32_t>(block->number(lane));
+                hits.u[at + i] = u_[flight], hits.v[at + i] = v_[flight];
+            }
+            const auto corner = [&](std::size_t i) { return hn::Load(d, corners[i]); };
+            const FloatV ax = corner(0), ay = corner(1), az = corner(2);
+            const FloatV bx = hn::Sub(corner(3), ax), by = hn::Sub(corner(4), ay), bz = hn::Sub(corner(5), az);
+            const FloatV cx = hn::Sub(corner(6), ax), cy = hn::Sub(corner(7), ay), cz = hn::Sub(corner(8), az);
+            const FloatV u = hn::Load(d, hits.u + at), v = hn::Load(d, hits.v + at);
+            FloatV nx = crossed(by, cz, bz, cy), ny = crossed(bz, cx, bx, cz), nz = crossed(bx, cy, by, cx);
+            // Of the largest component, so that no square vanishes.
+            const FloatV largest = hn::Max(hn::Max(hn::Abs(nx), hn::Abs(ny)), hn::Max(hn::Abs(nz), hn::Set(d, 1e-37f)));
+            nx = hn::Div(nx, largest), ny = hn::Div(ny, largest), nz = hn::Div(nz, largest);
+            const FloatV length = hn::Sqrt(hn::MulAdd(nx, nx, hn::MulAdd(ny, ny, hn::Mul(nz, nz))));
+            const FloatV inverse = hn::Div(hn::Set(d, 1.0f), hn::Max(length, hn::Set(d, 1e-37f)));
+            nx = hn::Mul(nx, inverse), ny = hn::Mul(ny, inverse), nz = hn::Mul(nz, inverse);
+            const FloatV x = hn::MulAdd(u, bx, hn::Mul(v, cx)), y = hn::MulAdd(u, by, hn::Mul(v, cy)),
+                         z = hn::MulAdd(u, bz, hn::Mul(v, cz));
+            const FloatV off = hn::Set(d, nudge);
+            hn::Store(nx, d, hits.nx + at), hn::Store(ny, d, hits.ny + at), hn::Store(nz, d, hits.nz + at);
+            hn::Store(hn::Add(ax, x), d, hits.x + at);
+            hn::Store(hn::Add(ay, y), d, hits.y + at);
+            hn::Store(hn::Add(az, z), d, hits.z + at);
+            hn::Store(hn::Add(ax, hn::NegMulAdd(off, nx, x)), d, hits.inside_x + at);
+            hn::Store(hn::Add(ay, hn::NegMulAdd(off, ny, y)), d, hits.inside_y + at);
+            hn::Store(hn::Add(az, hn::NegMulAdd(off, nz, z)), d, hits.inside_z + at);
+        }
     }
 
 private:
@@ -107,27 +164,20 @@ private:
         }
     };
 
-    static HWY_INLINE std::uint64_t bits(FloatM mask) {
-        std::uint8_t bytes[8] = {};
-        hn::StoreMaskBits(Float(), mask, bytes);
-        return bytes[0] | static_cast<std::uint64_t>(bytes[1]) << 8;
-    }
-
     // Lists the cells with triangles that the flights of a vector pass, each flight's in its order.
     HWY_INLINE void pass(std::size_t at) {
         const Float d;
         const Int di;
         const std::size_t width = hn::Lanes(d);
         const float per_cell = 1 / grid_.cell_mm;
-        FloatV begin = hn::Load(d, begin_ + at);
-        Axis x(ox_ + at, dx_ + at, begin, grid_.origin.x, per_cell, grid_.nx),
-            y(oy_ + at, dy_ + at, begin, grid_.origin.y, per_cell, grid_.ny),
-            z(oz_ + at, dz_ + at, begin, grid_.origin.z, per_cell, grid_.nz);
+        FloatV begin = hn::Load(d, flights_.begin + at);
+        Axis x(flights_.x + at, flights_.dx + at, begin, grid_.origin.x, per_cell, grid_.nx),
+            y(flights_.y + at, flights_.dy + at, begin, grid_.origin.y, per_cell, grid_.ny),
+            z(flights_.z + at, flights_.dz + at, begin, grid_.origin.z, per_cell, grid_.nz);
         const IntV bricks_x = hn::Set(di, grid_.nx >> 2), bricks_y = hn::Set(di, grid_.ny >> 2), three = hn::Set(di, 3);
-        FloatM going = hn::FirstN(d, count_ - at);
+        FloatM going = hn::FirstN(d, flights_.count - at);
+        const IntV flight = hn::Iota(di, static_cast<std::int32_t>(at));
         const auto* const table = reinterpret_cast<const std::int32_t*>(grid_.bricks.data());
-        HWY_ALIGN std::int32_t bricks[16], cells[16];
-        HWY_ALIGN float begins[16], ends[16];
         for (;;) {
             const IntV brick = hn::Add(
                 hn::ShiftRight<2>(x.cell),
@@ -136,27 +186,25 @@ private:
                                                                       hn::ShiftLeft<4>(hn::And(z.cell, three))));
             static_assert(sizeof(TriangleGrid::Brick) == 4 * sizeof(std::int32_t));
             // The half of the brick's bits that holds the cell's.
-            const IntV word = hn::Or(hn::ShiftLeft<2>(brick), hn::ShiftRight<5>(within));
-            const IntV half = hn::GatherIndex(di, table, hn::IfThenElseZero(hn::RebindMask(di, going), word));
+            const IntV word = hn::IfThenElseZero(hn::RebindMask(di, going),
+                                                 hn::Or(hn::ShiftLeft<2>(brick), hn::ShiftRight<5>(within)));
+            const IntV half = hn::GatherIndex(di, table, word);
             const IntV bit = hn::Shl(hn::Set(di, 1), hn::And(within, hn::Set(di, 31)));
             const FloatM full = hn::And(going, hn::RebindMask(d, hn::Ne(hn::And(half, bit), hn::Zero(di))));
             const FloatV next = hn::Min(x.t, hn::Min(y.t, z.t));
-            if (std::uint64_t set = bits(full); set != 0) {
-                hn::Store(brick, di, bricks);
-                hn::Store(within, di, cells);
-                hn::Store(begin, d, begins);
-                hn::Store(next, d, ends);
+            if (!hn::AllFalse(d, full)) {
+                const hn::RebindToUnsigned<Float> du;
+                const IntV before = hn::And(half, hn::Sub(bit, hn::Set(di, 1)));
+                const IntV cell = hn::Add(hn::GatherIndex(di, table + 2, word),
+                                          hn::BitCast(di, hn::PopulationCount(hn::BitCast(du, before))));
                 if (pairs_ + width > kPairs) test();
-                for (; set != 0; set &= set - 1) {
-                    const auto lane = static_cast<std::size_t>(std::countr_zero(set));
-                    pair_flights_[pairs_] = static_cast<std::int32_t>(at + lane);
-                    pair_cells_[pairs_] =
-                        static_cast<std::int32_t>(grid_.bricks[static_cast<std::size_t>(bricks[lane])].placeOf(
-                            static_cast<unsigned>(cells[lane])));
+                const Listing listing(full);
+                listing.append(flight, pair_flights_ + pairs_);
+                listing.append(cell, pair_cells_ + pairs_);
+                listing.append(begin, pair_begins_ + pairs_);
+                listing.append(next, pair_ends_ + pairs_);
+                for (const std::size_t end = pairs_ + listing.count(); pairs_ < end; ++pairs_)
                     hwy::Prefetch(&grid_.cells[static_cast<std::size_t>(pair_cells_[pairs_])]);
-                    pair_begins_[pairs_] = begins[lane];
-                    pair_ends_[pairs_++] = ends[lane];
-                }
             }
             begin = next;
             going = hn::And(going, hn::Lt(begin, hn::Set(d, 1.0f)));
@@ -177,14 +225,13 @@ private:
     // Tests the listed pairs.
     HWY_NOINLINE void test() {
         choose();
-        for (std::size_t i = 0; i < pairs_; ++i) {
-            const Pair& pair = list_[i];
+        for (std::size_t i = 0; i < chosen_; ++i) {
+            const std::int32_t flight = chosen_flights_[i];
             // What a flight has met before the cell begins is nearer than what the cell holds.
-            if (hits_[pair.flight].t < pair.begin) continue;
-            for (const TriangleGrid::Block* block = &grid_.blocks[pair.block];; ++block) {
-                test(pair.flight, *block);
-                if ((block->triangles[0] & TriangleGrid::kLast) != 0) break;
-            }
+            if (t_[flight] < chosen_begins_[i]) continue;
+            const auto first = static_cast<std::uint32_t>(chosen_blocks_[i]);
+            for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(chosen_counts_[i]); ++k)
+                test(static_cast<std::size_t>(flight), first + k);
         }
         pairs_ = 0;
     }
@@ -194,20 +241,19 @@ private:
     HWY_INLINE void choose() {
         const Float d;
         const Int di;
-        const std::size_t width = hn::Lanes(d), listed = pairs_;
-        for (std::size_t i = listed; i % width != 0; ++i) {
-            pair_flights_[i] = pair_flights_[listed - 1], pair_cells_[i] = pair_cells_[listed - 1];
-            pair_begins_[i] = pair_ends_[i] = 0;
-        }
-        pairs_ = 0;
+        const std::size_t width = hn::Lanes(d);
+        chosen_ = 0;
         static_assert(sizeof(TriangleGrid::Cell) == 4 * sizeof(std::int32_t));
         const auto* const cells = reinterpret_cast<const std::int32_t*>(grid_.cells.data());
         const auto* const leasts = reinterpret_cast<const float*>(grid_.cells.data());
-        HWY_ALIGN std::int32_t blocks[16];
-        for (std::size_t i = 0; i < listed; i += width) {
-            const IntV flight = hn::Load(di, pair_flights_ + i), cell = hn::ShiftLeft<2>(hn::Load(di, pair_cells_ + i));
-            const IntV normal = hn::GatherIndex(di, cells + 1, cell);
-            const FloatV least = hn::GatherIndex(d, leasts + 2, cell);
+        for (std::size_t i = 0; i < pairs_; i += width) {
+            const FloatM listed = hn::FirstN(d, pairs_ - i);
+            const auto known = [&](const std::int32_t* of) {
+                return hn::IfThenElseZero(hn::RebindMask(di, listed), hn::Load(di, of + i));
+            };
+            const IntV flight = known(pair_flights_), cell = hn::ShiftLeft<2>(known(pair_cells_));
+            const IntV normal = hn::GatherIndex(di, cells + 2, cell);
+            const FloatV least = hn::GatherIndex(d, leasts + 3, cell);
             const auto component = [&](IntV bits) { return hn::ConvertTo(d, hn::ShiftRight<22>(bits)); };
             const FloatV nx = component(normal), ny = component(hn::ShiftLeft<10>(normal)),
                          nz = component(hn::ShiftLeft<20>(normal));
@@ -216,34 +262,70 @@ private:
                     nx, hn::GatherIndex(d, x, flight),
                     hn::MulAdd(ny, hn::GatherIndex(d, y, flight), hn::Mul(nz, hn::GatherIndex(d, z, flight))));
             };
-            const FloatV from = height(ox_, oy_, oz_), along = height(dx_, dy_, dz_);
+            const FloatV from = height(flights_.x, flights_.y, flights_.z),
+                         along = height(flights_.dx, flights_.dy, flights_.dz);
             const FloatV begin = hn::Load(d, pair_begins_ + i),
                          end = hn::Min(hn::Load(d, pair_ends_ + i), hn::Set(d, 1.0f));
             const FloatV highest = hn::Max(hn::MulAdd(along, begin, from), hn::MulAdd(along, end, from));
-            hn::Store(hn::GatherIndex(di, cells, cell), di, blocks);
-            std::uint64_t set = bits(hn::And(hn::Ge(highest, least), hn::FirstN(d, listed - i)));
-            for (; set != 0; set &= set - 1) {
-                const auto lane = static_cast<std::size_t>(std::countr_zero(set));
-                const auto block = static_cast<std::uint32_t>(blocks[lane]);
-                list_[pairs_++] = {static_cast<std::uint32_t>(pair_flights_[i + lane]), block, pair_begins_[i + lane]};
-                const auto* line = reinterpret_cast<const char*>(&grid_.blocks[block]);
+            const Listing listing(hn::And(hn::Ge(highest, least), listed));
+            listing.append(flight, chosen_flights_ + chosen_);
+            listing.append(hn::GatherIndex(di, cells, cell), chosen_blocks_ + chosen_);
+            listing.append(hn::GatherIndex(di, cells + 1, cell), chosen_counts_ + chosen_);
+            listing.append(begin, chosen_begins_ + chosen_);
+            for (const std::size_t last = chosen_ + listing.count(); chosen_ < last; ++chosen_) {
+                const auto* line =
+                    reinterpret_cast<const char*>(&grid_.blocks[static_cast<std::uint32_t>(chosen_blocks_[chosen_])]);
                 for (std::size_t at = 0; at < sizeof(TriangleGrid::Block); at += 64) hwy::Prefetch(line + at);
             }
         }
     }
 
+    // The corners of triangles of a block, by the vertices that they share.
+    class Corners {
+    public:
+        HWY_INLINE Corners(const TriangleGrid::Block& block, std::size_t first) : block_(block), first_(first) {}
+
+        HWY_INLINE CornerVec at(std::size_t which, const CornerVec& origin) const {
+            const hn::RebindToSigned<Corner> di;
+            const hn::Rebind<std::uint8_t, Corner> bytes;
+            const auto vertex = hn::PromoteTo(di, hn::LoadU(bytes, block_.corners[which] + first_));
+            return CornerVec{take(block_.x, vertex), take(block_.y, vertex), take(block_.z, vertex)} - origin;
+        }
+
+    private:
+        HWY_INLINE CornerV take(const float* of, hn::Vec<hn::RebindToSigned<Corner>> vertex) const {
+            const Corner d;
+#if HWY_TARGET <= HWY_AVX2
+            // Twelve vertices in two vectors that overlap.
+            const hn::RebindToSigned<Corner> di;
+            constexpr std::size_t beyond = TriangleGrid::kVertices - TriangleGrid::kBlock;
+            const auto seven = hn::Set(di, 7);
+            const auto behind = hn::Sub(vertex, hn::Set(di, static_cast<std::int32_t>(beyond)));
+            const auto low = hn::TableLookupLanes(hn::LoadU(d, of), hn::IndicesFromVec(d, hn::And(vertex, seven)));
+            const auto high =
+                hn::TableLookupLanes(hn::LoadU(d, of + beyond), hn::IndicesFromVec(d, hn::And(behind, seven)));
+            return hn::IfThenElse(hn::RebindMask(d, hn::Gt(vertex, seven)), high, low);
+#else
+            return hn::GatherIndex(d, of, vertex);
+#endif
+        }
+
+        const TriangleGrid::Block& block_;
+        std::size_t first_;
+    };
+
     // A line passes through a triangle when it passes all edges on the same side; the side of an edge, the volume of
     // the edge and the line, is the same but for its sign from both of its triangles, so that nothing slips between.
-    HWY_INLINE void test(std::uint32_t flight, const TriangleGrid::Block& block) {
+    HWY_INLINE void test(std::size_t flight, std::uint32_t place) {
         const Corner d;
         const std::size_t width = hn::Lanes(d);
-        const CornerVec origin{hn::Set(d, ox_[flight]), hn::Set(d, oy_[flight]), hn::Set(d, oz_[flight])};
-        const CornerVec along{hn::Set(d, dx_[flight]), hn::Set(d, dy_[flight]), hn::Set(d, dz_[flight])};
+        const CornerVec origin{hn::Set(d, flights_.x[flight]), hn::Set(d, flights_.y[flight]),
+                               hn::Set(d, flights_.z[flight])};
+        const CornerVec along{hn::Set(d, flights_.dx[flight]), hn::Set(d, flights_.dy[flight]),
+                              hn::Set(d, flights_.dz[flight])};
         for (std::size_t i = 0; i < TriangleGrid::kBlock; i += width) {
-            const auto corner = [&](std::size_t which) {
-                const float(*c)[TriangleGrid::kBlock] = block.corners + 3 * which;
-                return CornerVec{hn::Load(d, c[0] + i), hn::Load(d, c[1] + i), hn::Load(d, c[2] + i)} - origin;
-            };
+            const Corners corners(grid_.blocks[place], i);
+            const auto corner = [&](std::size_t which) { return corners.at(which, origin); };
             const CornerVec a = corner(0), b = corner(1), c = corner(2);
             const CornerVec e0 = c - a, e1 = a - b, e2 = b - c;
             const CornerV u = inner(outer(e0, c + a), along), v = inner(outer(e1, a + b), along),
@@ -262,64 +344,61 @@ private:
             HWY_ALIGN float ts[TriangleGrid::kBlock], us[TriangleGrid::kBlock], vs[TriangleGrid::kBlock],
                 ws[TriangleGrid::kBlock];
             hn::Store(t, d, ts), hn::Store(u, d, us), hn::Store(v, d, vs), hn::Store(w, d, ws);
-            RayHit& hit = hits_[flight];
             for (unsigned set = bytes[0]; set != 0; set &= set - 1) {
                 const auto lane = static_cast<std::size_t>(std::countr_zero(set));
-                if (!(ts[lane] < hit.t)) continue;
+                if (!(ts[lane] < t_[flight])) continue;
                 const float sum = us[lane] + vs[lane] + ws[lane], scale = sum != 0 ? 1 / sum : 0;
-                hit.t = ts[lane];
-                met_[flight] = {&block, i + lane};
-                hit.u = std::clamp(us[lane] * scale, 0.0f, 1.0f), hit.v = std::clamp(vs[lane] * scale, 0.0f, 1.0f);
+                t_[flight] = ts[lane];
+                met_[flight] = place * TriangleGrid::kBlock + static_cast<std::uint32_t>(i + lane);
+                u_[flight] = std::clamp(us[lane] * scale, 0.0f, 1.0f),
+                v_[flight] = std::clamp(vs[lane] * scale, 0.0f, 1.0f);
             }
         }
-    }
-
-    // What is asked of the nearest hit alone.
-    HWY_INLINE void finish(std::size_t flight) {
-        const auto [block, lane] = met_[flight];
-        const auto corner = [&, block = block, lane = lane](std::size_t which) {
-            const float(*c)[TriangleGrid::kBlock] = block->corners + 3 * which;
-            return Vec3{c[0][lane], c[1][lane], c[2][lane]};
-        };
-        RayHit& hit = hits_[flight];
-        const Vec3 first = corner(0), to_second = corner(1) - first, to_third = corner(2) - first;
-        hit.triangle = block->triangles[lane] & ~TriangleGrid::kLast;
-        hit.normal = toFloat(normalize(searchlight::cross(to_second, to_third)));
-        hit.t *= flights_[flight].t_max;
-        positions_[flight] = first + static_cast<double>(hit.u) * to_second + static_cast<double>(hit.v) * to_third;
     }
 
     struct Met {
         const TriangleGrid::Block* block;
         std::size_t lane;
     };
-    struct Pair {
-        std::uint32_t flight;
-        std::uint32_t block;  // first of the cell
-        float begin;          // where the flight enters it
-    };
+    Met metBy(std::size_t flight) const {
+        return {&grid_.blocks[met_[flight] / TriangleGrid::kBlock], met_[flight] % TriangleGrid::kBlock};
+    }
 
     const TriangleGrid& grid_;
-    const Ray* flights_;
-    RayHit* hits_;
-    Vec3* positions_;
-    std::size_t count_, pairs_ = 0;
-    // In multiples of t_max.
-    alignas(64) float ox_[kMostFlights], oy_[kMostFlights], oz_[kMostFlights];
-    alignas(64) float dx_[kMostFlights], dy_[kMostFlights], dz_[kMostFlights];
-    alignas(64) float begin_[kMostFlights];  // where the flights may first meet something
+    const Flights& flights_;
+    std::size_t pairs_ = 0, chosen_ = 0;
+    // Of each flight the nearest hit: in multiples of the flight, and the place of its triangle in the blocks.
+    alignas(64) float t_[Flights::kRoom], u_[Flights::kRoom], v_[Flights::kRoom];
+    std::uint32_t met_[Flights::kRoom];
     // Flights and the cells with triangles that they pass, from where to where; then those of them to be tested.
-    alignas(64) std::int32_t pair_flights_[kPairs], pair_cells_[kPairs];
-    alignas(64) float pair_begins_[kPairs], pair_ends_[kPairs];
-    Pair list_[kPairs];
-    Met met_[kMostFlights];
+    alignas(64) std::int32_t pair_flights_[kPairs + 16], pair_cells_[kPairs + 16];
+    alignas(64) float pair_begins_[kPairs + 16], pair_ends_[kPairs + 16];
+    alignas(64) std::int32_t chosen_flights_[kPairs + 16], chosen_blocks_[kPairs + 16], chosen_counts_[kPairs + 16];
+    alignas(64) float chosen_begins_[kPairs + 16];
 };
 
 void intersectGrid(const TriangleGrid& grid, const Ray* flights, std::size_t count, RayHit* hits, Vec3* positions) {
-    for (std::size_t first = 0; first < count; first += kMostFlights) {
-        const std::size_t now = std::min(kMostFlights, count - first);
-        FlightTest(grid, flights + first, now, hits + first, positions + first).run();
+    Flights some;
+    for (std::size_t first = 0; first < count; first += Flights::kMost) {
+        some.count = std::min(Flights::kMost, count - first);
+        for (std::size_t i = 0; i < some.count; ++i) {
+            const Ray& f = flights[first + i];
+            some.x[i] = f.origin.x, some.y[i] = f.origin.y, some.z[i] = f.origin.z;
+            some.dx[i] = f.t_max * f.direction.x, some.dy[i] = f.t_max * f.direction.y;
+            some.dz[i] = f.t_max * f.direction.z;
+            some.begin[i] = f.t_min / f.t_max;
+        }
+        FlightTest test(grid, some);
+        test.run();
+        for (std::size_t i = 0; i < some.count; ++i)
+            if (test.hit(i, hits[first + i], positions[first + i])) hits[first + i].t *= flights[first + i].t_max;
     }
+}
+
+void intersectFlights(const TriangleGrid& grid, const Flights& flights, float nudge, FlightHits& hits) {
+    FlightTest test(grid, flights);
+    test.run();
+    test.list(nudge, hits);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -330,10 +409,15 @@ HWY_AFTER_NAMESPACE();
 namespace searchlight {
 
 HWY_EXPORT(intersectGrid);
+HWY_EXPORT(intersectFlights);
 
 void TriangleGrid::intersect(std::span<const Ray> flights, std::span<RayHit> hits, std::span<Vec3> positions) const {
     assert(flights.size() == hits.size() && flights.size() == positions.size());
     HWY_DYNAMIC_DISPATCH(intersectGrid)(*this, flights.data(), flights.size(), hits.data(), positions.data());
+}
+
+void TriangleGrid::intersect(const Flights& flights, float nudge_mm, FlightHits& hits) const {
+    HWY_DYNAMIC_DISPATCH(intersectFlights)(*this, flights, nudge_mm, hits);
 }
 
 }  // namespace searchlight

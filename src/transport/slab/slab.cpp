@@ -332,7 +332,7 @@ SlabResult walkSlab(const SlabProblem& problem, const SlabOptions& options, Obse
     }
     ChunkedWalk job;
     job.plan = planChunks(options.walks, options.control.until_error > 0);
-    if (options.control.state && !options.control.state->empty()) job.plan.size = options.control.state->chunk_size;
+    job.plan = job.plan.goingOn(options.control.state);
     job.threads = options.threads;
     job.enough = enoughFor(options.control.until_error, layout);
     job.control = options.control;
