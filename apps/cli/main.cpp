@@ -23,9 +23,11 @@ using namespace searchlight;
 
 std::atomic<bool> interrupted = false;
 
-void interrupt(int) {
-    // A second Ctrl+C does not wait for the work to notice.
-    if (interrupted.exchange(true)) _exit(130);
+void interrupt(int signal) {
+    // A second Ctrl+C does not wait for the work to notice. That mpirun passes one on as SIGTERM is not a second one.
+    static std::atomic<int> before = 0;
+    interrupted = true;
+    if (before.exchange(signal) == signal) _exit(130);
 }
 
 int exitCode(ErrorKind kind) {
@@ -71,20 +73,25 @@ int watch(const Job& job, const std::function<int()>& runOnce) {
 
 int runArguments(int argc, char** argv) {
     const Arguments arguments = parseArguments(argc, argv);
+    const auto speak = [](std::string_view text) {
+        if (rank() == 0) print(text);
+    };
     if (!arguments.job) {
-        print(arguments.text);
+        speak(arguments.text);
         return 0;
     }
     if (arguments.print_job) {
-        print(jobJson(*arguments.job) + "\n");
+        speak(jobJson(*arguments.job) + "\n");
         return 0;
     }
+    if (arguments.watch && rankCount() > 1) throw usageError("--watch is for one process", "leave mpirun out");
     TerminalObserver observer(interrupted);
     Engine engine;
     const auto runOnce = [&] {
         const JobResult result = run(*arguments.job, engine, observer);
         observer.finish();
-        if (rank() == 0) print(arguments.json ? result.json + "\n" : result.text);
+        speak(arguments.json ? result.json + "\n" : result.text);
+        if (!result.failure.empty()) throw inputError(result.failure);
         if (result.interrupted) return exitCode(ErrorKind::interrupted);
         return result.passed ? 0 : 1;
     };
@@ -94,20 +101,31 @@ int runArguments(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    std::signal(SIGINT, interrupt);
-    std::signal(SIGTERM, interrupt);
+    struct sigaction action = {};
+    action.sa_handler = interrupt;  // without SA_RESTART: a pipe that nobody writes is not waited for again
+    sigaction(SIGINT, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
     std::signal(SIGPIPE, SIG_IGN);
     Ranks ranks(argc, argv);
-    const auto fail = [&](int code, std::string_view message) {
-        fmt::print(stderr, "searchlight: {}\n", message);
-        if (rankCount() > 1) ranks.abort(code);
-        return code;
-    };
+    int code = 0;
+    std::string message;
     try {
-        return runArguments(argc, argv);
+        code = runArguments(argc, argv);
     } catch (const Error& error) {
-        return fail(exitCode(error.kind), error.what());
+        code = exitCode(error.kind);
+        message = error.what();
     } catch (const std::bad_alloc&) {
-        return fail(exitCode(ErrorKind::input), "out of memory");
+        code = exitCode(ErrorKind::input);
+        message = "out of memory";
+    } catch (const std::exception& error) {
+        code = exitCode(ErrorKind::input);
+        message = error.what();
     }
+    // What is wrong for all, one says.
+    const Ranks::Ends ends = ranks.meet(code);
+    if (!message.empty() && ends.failed == rank())
+        fmt::print(stderr, "searchlight: {}{}\n",
+                   rank() > 0 ? fmt::format("process {} of {}: ", rank() + 1, rankCount()) : "", message);
+    if (!ends.all_ended) ranks.abort(code);
+    return code;
 }

@@ -67,7 +67,7 @@ void TerminalObserver::progress(std::string_view task, std::uint64_t done, std::
 }
 
 void TerminalObserver::log(LogLevel level, std::string_view message) {
-    if (level == LogLevel::debug || (level == LogLevel::info && !terminal_)) return;
+    if (level == LogLevel::debug || (level == LogLevel::info && !terminal_) || rank() != 0) return;
     const std::lock_guard lock(mutex_);
     clearLine();
     fmt::print(stderr, "{}{}\n", level == LogLevel::warning ? "warning: " : "", message);

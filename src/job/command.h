@@ -24,6 +24,7 @@ struct Command {
     bool uses_seed = false;   ///< takes --seed
     bool shares_walks = false;     ///< mpirun shares its work among processes
     bool writes_in_parts = false;  ///< and each of them writes its part of the files
+    bool writes_folder = false;    ///< -o names a folder, which the command makes
     std::string_view output;       ///< what -o writes ("figure: .svg, .png, .pdf or .csv"); empty: no -o
     JobResult (*run)(const Job& job, Engine& engine, Observer& observer);
 };

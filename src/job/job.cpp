@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "base/files.h"
 #include "base/ranks.h"
 #include "base/text.h"
 #include "job/command.h"
@@ -54,6 +55,18 @@ ParamValues parseOptions(const JsonText& text, const nlohmann::json& options, co
         if (param.required && !values.contains(param.name))
             throw text.error("/options", fmt::format("{} needs '{}'", command.name, param.name), param.doc);
     return values;
+}
+
+// What would be found out only after the work.
+void checkOutput(const Job& job, const Command& command) {
+    if (job.output.empty() || command.writes_folder) return;
+    for (const Param& param : command.options) {
+        const auto given = job.options.find(param.name);
+        if (command.shares_walks && param.type == ParamType::path && given != job.options.end() &&
+            sameFile(std::get<std::string>(given->second), job.output))
+            throw usageError(fmt::format("-o would write over the file of --{}", param.name), "give another name");
+    }
+    checkWritable(job.output);
 }
 
 }  // namespace
@@ -122,7 +135,7 @@ std::string jobJson(const Job& job) {
     if (command.uses_seed) json["seed"] = job.seed;
     if (!job.output.empty()) json["output"] = job.output;
     if (!job.window.empty()) json["window"] = Json::parse(job.window);
-    return json.dump(1);
+    return jsonText(json);
 }
 
 JobResult run(const Job& job, Observer& observer) {
@@ -132,6 +145,7 @@ JobResult run(const Job& job, Observer& observer) {
 
 JobResult run(const Job& job, Engine& engine, Observer& observer) {
     const Command& command = findCommand(job.command);
+    if (rank() == 0) checkOutput(job, command);
     if (rank() == 0 || command.writes_in_parts) return command.run(job, engine, observer);
     if (!command.shares_walks) return {};
     Job share = job;  // the process with rank 0 writes
@@ -143,7 +157,7 @@ std::vector<std::string> modelFiles(const Job& job) {
     std::vector<std::string> files;
     const auto add = [&](std::string_view model) {
         for (std::string& part : partNames(model))
-            if (std::filesystem::is_regular_file(part)) files.push_back(std::move(part));
+            if (std::error_code error; std::filesystem::is_regular_file(part, error)) files.push_back(std::move(part));
     };
     if (findCommand(job.command).uses_scene) add(job.scene.model.id);
     for (const char* option : {"model", "models", "solo"}) {

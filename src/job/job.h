@@ -34,12 +34,13 @@ struct JobResult {
     std::string json;          ///< for machines; one document
     bool passed = true;        ///< false: a check failed (exit code 1)
     bool interrupted = false;  ///< stopped early, with what there was until then
+    std::string failure;       ///< why a file could not be written; all else is here. Empty: none failed
 };
 
 class Engine;
 
-/// Does the work. Files are written only when all of it succeeded. Throws Error. An engine that is kept spares the next
-/// job the start of OpenGL.
+/// Does the work. Where `output` cannot be written, that is said before the work. Throws Error. An engine that is kept
+/// spares the next job the start of OpenGL.
 JobResult run(const Job& job, Observer& observer);
 JobResult run(const Job& job, Engine& engine, Observer& observer);
 

@@ -1,8 +1,28 @@
 #include "job/json.h"
 
+#include "base/error.h"
+#include "base/files.h"
 #include "base/version.h"
 
 namespace searchlight {
+
+std::string jsonText(const Json& json, int indent) {
+    return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+void writeOutput(JobResult& result, const std::function<void()>& write) {
+    try {
+        write();
+    } catch (const Error& error) {
+        if (error.kind != ErrorKind::input) throw;
+        if (!result.failure.empty()) result.failure += '\n';
+        result.failure += error.what();
+    }
+}
+
+void writeDocument(JobResult& result, const Job& job) {
+    if (!job.output.empty()) writeOutput(result, [&] { writeFile(job.output, result.json + "\n"); });
+}
 
 Json documentJson(std::string_view format, const Job& job) {
     Json document;

@@ -1,6 +1,7 @@
 // Small JSON vocabulary of the commands. Only .cpp files of src/job include this.
 #pragma once
 
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
@@ -14,6 +15,15 @@
 namespace searchlight {
 
 using Json = nlohmann::ordered_json;
+
+/// The text of a document; with an indent of -1 in one line. Bytes of names that are no UTF-8 are replaced.
+std::string jsonText(const Json& json, int indent = 1);
+
+/// Lets `write` write a file. Where that fails, `result` tells so beside what was computed.
+void writeOutput(JobResult& result, const std::function<void()>& write);
+
+/// result.json into the job's output, if it has one.
+void writeDocument(JobResult& result, const Job& job);
 
 /// A new document: format, program version and the job that made it.
 Json documentJson(std::string_view format, const Job& job);

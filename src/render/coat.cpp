@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/directions.h"
 #include "base/error.h"
 #include "base/files.h"
 #include "base/parallel.h"
@@ -29,10 +30,9 @@ CoatPoint pointOf(const CoatSamples& samples, std::size_t i) {
     const Vec3 wo = toDouble(samples.wo[i]);
     // 1e-3: closer to the horizon, single precision of the normal decides what is seen.
     if (dot(point.normal, wo) < 1e-3) point.normal = point.geometric_normal;
-    const Vec3 n = point.normal;
-    const double sign = std::copysign(1.0, n.z), a = -1 / (sign + n.z), b = n.x * n.y * a;  // [Duff2017]
-    point.tangent = {1 + sign * n.x * n.x * a, sign * b, -sign * n.x};
-    point.bitangent = {b, sign + n.y * n.y * a, -n.y};
+    const Frame frame = frameAround(point.normal);
+    point.tangent = frame.tangent;
+    point.bitangent = frame.bitangent;
     point.wo = point.local(wo);
     return point;
 }

@@ -54,6 +54,43 @@ TEST_F(Files, FailedWriteLeavesTheOldFile) {
     EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
 }
 
+// Renaming a file onto a device would replace the device.
+TEST_F(Files, DevicesAreWrittenDirectly) {
+    if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+    writeFile("/dev/null", "1");
+    EXPECT_TRUE(fs::is_character_file("/dev/null"));
+    checkWritable("/dev/full");
+    EXPECT_EQ(messageOf([&] { writeFile("/dev/full", "1"); }), "/dev/full: cannot be written: No space left on device");
+}
+
+TEST_F(Files, WhatCannotBeWrittenIsKnownBefore) {
+    const fs::path path = folder_ / "a", missing = folder_ / "no" / "a", longer = folder_ / std::string(300, 'a');
+    EXPECT_EQ(messageOf([&] { checkWritable(path); }), "no error");
+    EXPECT_TRUE(fs::is_empty(folder_));
+    writeFile(path, "old");
+    EXPECT_EQ(messageOf([&] { checkWritable(path); }), "no error");
+    EXPECT_EQ(readFile(path), "old");
+    for (const fs::path& bad : {folder_, missing, longer, path / "b"}) {
+        const std::string message = messageOf([&] { checkWritable(bad); });
+        EXPECT_EQ(message, messageOf([&] { writeFile(bad, ""); }));
+        EXPECT_NE(message, "no error") << bad;
+    }
+    EXPECT_EQ(messageOf([&] { checkWritable(longer); }), longer.string() + ": cannot be written: File name too long");
+}
+
+TEST_F(Files, OneFileHasManyNames) {
+    EXPECT_TRUE(sameFile(folder_ / "a", folder_ / "." / "a"));
+    EXPECT_TRUE(sameFile("a", fs::current_path() / "b" / ".." / "a"));
+    EXPECT_FALSE(sameFile(folder_ / "a", folder_ / "b"));
+    writeFile(folder_ / "a", "");
+    EXPECT_FALSE(sameFile(folder_ / "a", folder_ / "b"));
+    fs::create_hard_link(folder_ / "a", folder_ / "b");
+    fs::create_symlink(folder_, folder_ / "c");
+    EXPECT_TRUE(sameFile(folder_ / "a", folder_ / "b"));
+    EXPECT_TRUE(sameFile(folder_ / "new", folder_ / "c" / "new"));
+    EXPECT_FALSE(sameFile(std::string(5000, 'a'), folder_ / "a"));
+}
+
 TEST_F(Files, FaultsAreNamedWithTheirPath) {
     const std::string folder = folder_.string(), missing = (folder_ / "missing").string();
     EXPECT_EQ(messageOf([&] { readFile(missing); }), missing + ": no such file");

@@ -41,6 +41,16 @@ protected:
         return output;
     }
 
+    /// run(), ended by Ctrl+C when it has something to show: how long that takes is not known.
+    Output interrupt(const std::string& arguments) const {
+        Output output;
+        for (const char* seconds : {"2", "8", "32", "128"}) {
+            output = run(arguments, std::string("timeout --preserve-status -s INT -k 60 ") + seconds);
+            if (!output.out.empty()) break;
+        }
+        return output;
+    }
+
     const std::filesystem::path& folder() const { return folder_; }
 
     /// Files that runs left behind.

@@ -1,4 +1,4 @@
-// References that stop, go on, and share their walks between processes.
+// References that stop and go on.
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
@@ -45,8 +45,7 @@ TEST_F(Program, AResumedSphereHasTheNumbersOfOneThatNeverStopped) {
 }
 
 TEST_F(Program, CtrlCLeavesAValidFileThatGoesOn) {
-    const Output stopped =
-        run(half_space + "--walks 1e13 --resume walks.json -o part.json", "timeout --preserve-status -s INT 2");
+    const Output stopped = interrupt(half_space + "--walks 1e13 --resume walks.json -o part.json");
     EXPECT_EQ(stopped.exit_code, 130) << stopped.err;
     const json part = json::parse(readFile(folder() / "part.json"));
     EXPECT_EQ(part["interrupted"], true);
@@ -95,6 +94,12 @@ TEST_F(Program, DamagedWalksAreRefusedAndKept) {
         {"/format", "searchlight-walks/2", "'searchlight-walks/2' cannot be read (a newer version wrote it)"},
         {"/states", json::array(), "should hold 3 walks"},
         {"/states/0/chunks", -1, "/states/0/chunks"},
+        {"/states/0/chunk_size", 9007199254740992, "/states/0/walks: does not fit the number of chunks"},
+        {"/states/0/chunks", 0, "/states/0/walks: does not fit the number of chunks"},
+        {"/states/0/walks", 2000, "/states/0/sums/0: is not of as many walks as the file says"},
+        {"/estimators", 1, "/estimators: these are walks by another version of the estimators"},
+        {"/problem", 5, "/problem: these are walks of another problem: it differs"},
+        {"/problem/a~0b", 5, "/problem/a~0b: these are walks of another problem: /a~0b differs"},
         {"/states/0/chunks", 3, "does not have as many batches as the walk has chunks"},
         {"/states/0/sums/0", json::array({1, 2}), "is no list of sums"},
         {"/states/0/sums/1/4", "many", "holds what is no number"},
@@ -106,9 +111,15 @@ TEST_F(Program, DamagedWalksAreRefusedAndKept) {
         writeFile(folder() / "walks.json", bad.dump());
         const Output output = run(half_space + "--walks 1000 --resume walks.json");
         EXPECT_EQ(output.exit_code, 3) << damage.pointer;
+        EXPECT_THAT(output.err, testing::StartsWith("searchlight: walks.json:"));
         EXPECT_THAT(output.err, HasSubstr(damage.message));
         EXPECT_EQ(readFile(folder() / "walks.json"), bad.dump());
     }
+    json older = document;
+    older.erase("estimators");
+    writeFile(folder() / "walks.json", older.dump());
+    EXPECT_THAT(run(half_space + "--walks 1000 --resume walks.json").err,
+                HasSubstr("another version of the estimators"));
     writeFile(folder() / "walks.json", good.substr(0, good.size() / 2));
     EXPECT_EQ(run(half_space + "--walks 1000 --resume walks.json").exit_code, 3);
 }
@@ -120,37 +131,6 @@ TEST_F(Program, AReferenceStopsAtTheErrorAskedFor) {
     EXPECT_LT(document["walks"], 1e6);
     EXPECT_LE(document["diffuse"]["stderr"][0], 0.01 * document["diffuse"]["mean"][0].get<double>());
     EXPECT_EQ(run(half_space + "--until-error 2").exit_code, 2);
-}
-
-TEST_F(Program, ProcessesShareTheWalksOfAReference) {
-    if (std::string_view(SEARCHLIGHT_MPIRUN).empty()) GTEST_SKIP() << "built without SEARCHLIGHT_MPI";
-    const std::string mpirun = SEARCHLIGHT_MPIRUN " --allow-run-as-root --oversubscribe -n 3";
-    const Output one = run(half_space + "--walks 1e6"), three = run(half_space + "--walks 1e6", mpirun);
-    ASSERT_EQ(three.exit_code, 0) << three.err;
-    EXPECT_EQ(numbers(three.out), numbers(one.out));
-    for (const std::string body : {"sphere", "mesh statue --scale 6 --radiance"}) {
-        const std::string reference = "reference " + body + " --material marble --walks 5e3 --size 16x16 --json";
-        const Output alone = run(reference), shared = run(reference, mpirun);
-        ASSERT_EQ(shared.exit_code, 0) << shared.err;
-        json from_one = json::parse(alone.out), from_three = json::parse(shared.out);
-        for (json* document : {&from_one, &from_three}) document->erase("seconds");
-        EXPECT_EQ(from_three, from_one) << body;
-    }
-    writeFile(folder() / "layers.json",
-              R"({"format": "searchlight-layers/1", "n_above": 1, "n_below": 1, "layers": [
-                  {"n": 1.5, "sigma_a": 0.05, "sigma_s": 2, "g": 0, "thickness_mm": 1}]})");
-    const std::string slab = "reference slab --layers layers.json --walks 1e5 --json";
-    const Output alone = run(slab), shared = run(slab, mpirun);
-    ASSERT_EQ(shared.exit_code, 0) << shared.err;
-    json from_one = json::parse(alone.out), from_three = json::parse(shared.out);
-    EXPECT_EQ(from_one.at("estimator"), "best");
-    for (json* document : {&from_one, &from_three}) document->erase("seconds");
-    EXPECT_EQ(from_three, from_one);
-    const Output wrong = run(half_space + "--walks 0", mpirun);
-    EXPECT_NE(wrong.exit_code, 0);
-    EXPECT_THAT(wrong.err, HasSubstr("searchlight: "));
-    const Output other = run("models --json", mpirun);
-    EXPECT_TRUE(json::accept(other.out)) << "one process answers, not three";
 }
 
 }  // namespace

@@ -52,16 +52,32 @@ TEST_F(Program, ASlabWithoutAnExactSolutionSaysWhy) {
         EXPECT_EQ(output.exit_code, 2) << options;
         return output.err;
     };
-    EXPECT_THAT(refusal("--angle-deg 30"), HasSubstr("the beam is oblique, 30 deg"));
-    EXPECT_THAT(refusal("--angle-deg 30"), HasSubstr("--exact takes a normal pencil beam"));
+    EXPECT_THAT(refusal("--angle-deg 30 --edges 0,1"),
+                HasSubstr("no exact R(r) and T(r): the beam is oblique, 30 deg"));
     EXPECT_THAT(refusal("--walks 10"), HasSubstr("--exact and --walks exclude each other"));
     EXPECT_THAT(refusal("--until-error 1%"), HasSubstr("--exact and --until-error exclude each other"));
     EXPECT_THAT(refusal("--maps"), HasSubstr("--exact has no --maps"));
     EXPECT_THAT(refusal("--backend gl"), HasSubstr("--backend gl and --exact exclude each other"));
+    writeFile(folder() / "sharp.json", R"({"format": "searchlight-layers/1", "layers": [
+        {"n": 1.4, "sigma_a": 0.1, "sigma_s": 1, "g": 0.97, "thickness_mm": 1}]})");
+    EXPECT_THAT(run("reference slab --layers sharp.json --exact").err, HasSubstr("|g| 0.97 of layer 1"));
+}
+
+// Where R(r) has no exact solution the rest may have one.
+TEST_F(Program, AnObliqueBeamThroughGlassHasExactTotalsAndAngles) {
     writeFile(folder() / "glass.json", R"({"format": "searchlight-layers/1", "layers": [
         {"n": 1.5, "sigma_a": 0, "sigma_s": 0, "thickness_mm": 1},
         {"n": 1.4, "sigma_a": 0.1, "sigma_s": 1, "thickness_mm": 1}]})");
-    EXPECT_THAT(run("reference slab --layers glass.json --exact").err, HasSubstr("layer 1 is clear"));
+    const std::string command = "reference slab --layers glass.json --angle-deg 30 --exact --angles 9";
+    EXPECT_THAT(run(command).out, HasSubstr("no R(r) and T(r): the beam is oblique, 30 deg"));
+    const json slab = json::parse(run(command + " --json").out);
+    EXPECT_EQ(slab.at("estimator"), "exact");
+    EXPECT_FALSE(slab.contains("R_r"));
+    EXPECT_EQ(slab.at("R_a").at("mean").size(), 9u);
+    double sum = slab.at("specular");
+    for (const char* key : {"R", "R_unscattered", "T", "T_unscattered", "A"})
+        sum += slab.at(key).at("mean").get<double>();
+    EXPECT_NEAR(sum, 1, 1e-8);
 }
 
 TEST_F(Program, ReferenceSlabTakesGridAndPhotonsFromAnMciFileUnlessTold) {

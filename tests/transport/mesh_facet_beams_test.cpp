@@ -145,11 +145,76 @@ TEST(FacetBeams, EnterFromASliverOfADisc) {
     }
 }
 
+// Below the top of a box, whose sides cast no light down there: for any direction of the disc, one facet brings it.
+TEST(FacetBeams, OfADiscAreItsRefractedLight) {
+    const MeshBody body(boxMesh({4, 1, 4}), {.cell_area_mm2 = 1, .shortest_mfp = 0.5});
+    Scene scene;
+    scene.object = "sphere";
+    scene.lights = {DirectionalLight{.direction = {3, 4, 0}, .irradiance = {5, 1, 1}, .angle_deg = 30}};
+    const LightSampler lights(scene, placeObject(scene));
+    const FacetBeams beams(body, {2, 0.1, 0, 1.4}, lights, 0);
+    SplitMix64 random(1);
+    std::uint64_t rays = 0;
+    constexpr int times = 40'000;
+    constexpr double depth = 0.7;
+    double found = 0, truth = 0, squares = 0;
+    for (int i = 0; i < times; ++i) {
+        const double one = 4 * pi * 1.4 * 1.4 * beams.scattered({0.1F, 1 - 0.7F, 0.2F}, {0, 0, 1}, random, rays);
+        found += one / times, squares += one * one / times;
+        const LightSample light = lights.sampleOf(0, {}, random.uniform(), random.uniform());
+        const double c = light.wi.y, t = std::sqrt(1 - (1 - c * c) / 1.96);
+        const double s = (c - 1.4 * t) / (c + 1.4 * t), p = (1.4 * c - t) / (1.4 * c + t);
+        truth += light.irradiance_over_pdf[0] * (1 - 0.5 * (s * s + p * p)) * c / t * std::exp(-2 * depth / t) / times;
+    }
+    // The other sum scatters far less.
+    EXPECT_NEAR(found, truth, 4 * std::sqrt((squares - found * found) / times));
+}
+
+// A wall of the same body stands between the light and the floor beside it, and casts its shadow there.
+TEST(FacetBeams, AreHiddenByWhatStandsInTheirWay) {
+    // From the side: a block of 4 mm with a step 2 mm high on its left half.
+    Mesh mesh;
+    const double outline[][2]{{-2, 0}, {2, 0}, {2, 1}, {0, 1}, {0, 3}, {-2, 3}};
+    for (const float z : {-2.0F, 2.0F})
+        for (const auto& [x, y] : outline) mesh.positions.push_back({static_cast<float>(x), static_cast<float>(y), z});
+    const auto quad = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+        mesh.triangles.push_back({a, b, c});
+        mesh.triangles.push_back({a, c, d});
+    };
+    for (std::uint32_t i = 0; i < 6; ++i) quad(i, (i + 1) % 6, (i + 1) % 6 + 6, i + 6);
+    for (std::uint32_t i = 1; i < 5; ++i) {
+        mesh.triangles.push_back({i + 1, i, 0});
+        mesh.triangles.push_back({6, i + 6, i + 7});
+    }
+    const MeshBody body(mesh, {.cell_area_mm2 = 1, .shortest_mfp = 1});
+    Scene scene;
+    scene.object = "sphere";
+    for (const double angle_deg : {0.0, 10.0}) {
+        const auto below = [&](Vec3 to, Vec3f place) {
+            scene.lights = {DirectionalLight{.direction = to, .angle_deg = angle_deg}};
+            const LightSampler lights(scene, placeObject(scene));
+            const FacetBeams beams(body, {1, 0.1, 0, 1.4}, lights, 0, 0);
+            SplitMix64 random(1);
+            std::uint64_t rays = 0;
+            double sum = 0;
+            for (int i = 0; i < 2'000; ++i) sum += beams.scattered(place, {0, 0, 1}, random, rays);
+            return sum;
+        };
+        const Vec3f floor{0.5F, 0.7F, 0.1F};
+        EXPECT_GT(below({1, 1, 0}, floor), 0);   // from the open side
+        EXPECT_EQ(below({-1, 2, 0}, floor), 0);  // over the wall: in its shadow; what enters the wall leaves it first
+        EXPECT_GT(below({-1, 2, 0}, {1.8F, 0.7F, 0.1F}), 0);    // beyond the shadow
+        EXPECT_GT(below({1, 0.2, 0}, {-0.2F, 2, 0.1F}), 0);     // from the open side into the wall
+        EXPECT_GT(below({1, -0.5, 0}, {1.5F, 0.5F, 0.1F}), 0);  // into the block's side
+    }
+}
+
 // Near a facet light goes every way, and its slices never leave the mesh.
 TEST(BeamCells, EndWithTheMeshHoweverLongTheSweep) {
     const BeamCells cells(boxMesh({1, 1, 1}));
     std::vector<int> visits(cells.count());
-    cells.forEach({{{-1, 1, -1}, {1, 1, 1}}, {{-1, -1, -1}, {1, 1, 1}}, 1e9}, [&](std::size_t at) { ++visits[at]; });
+    cells.forEach({{{-1, 1, -1}, {1, 1, 1}}, {{-1, -1, -1}, {1, 1, 1}}, 1e9},
+                  [&](std::size_t at, double) { ++visits[at]; });
     const auto [fewest, most] = std::ranges::minmax(visits);
     EXPECT_GE(fewest, 1);
     EXPECT_LE(most, 15);  // slices of a cell along the diagonal of 8 x 8 x 8

@@ -6,6 +6,7 @@
 
 #include "exact.h"
 #include "transport/exact/exact_half_space.h"
+#include "transport/exact/ordinate_half_space.h"
 #include "transport/exact/ordinate_slab.h"
 
 namespace searchlight {
@@ -52,10 +53,11 @@ TEST(OrdinateSlab, WalksAgree) {
     for (const Case& c : {Case{"matched sheet", {1, 1, {{1, 0.1, 0.9, 0.5, 1}}}, 2e7},
                           Case{"glued", {1, 1.2, {{1.4, 0.05, 1, 0.3, 2}}}, 1e7},
                           Case{"two layers", {1, 1, {{1.4, 0.05, 2, 0.5, 0.5}, {1.33, 0.1, 1, 0, 2}}}, 1e7},
+                          Case{"under glass", {1, 1, {{1.5, 0, 0, 0, 0.15}, {1.35, 0.1, 3, 0.8, 3}}}, 1e7},
                           Case{"skin-like", {1, 1, {{1.4, 0.05, 5, 0.8, 2}}}, 2e7},
                           Case{"forward, infinite", {1, 1, {{1.4, 0.05, 10, 0.9, infinity}}}, 1e7},
                           Case{"lossless on infinite", {1, 1, {{1.4, 0, 1, 0, 1}, {1.4, 0.1, 1, 0, infinity}}}, 2e6}}) {
-        const SlabLayer& first = c.problem.layers.front();
+        const SlabLayer& first = c.problem.layers[c.problem.layers.front().clear() ? 1 : 0];
         std::vector<double> edges = edges_mfp;
         for (double& edge : edges) edge /= first.sigma_a + (1 - first.g) * first.sigma_s;
         const SlabResult exact = solve(c.problem, edges);
@@ -83,6 +85,32 @@ TEST(OrdinateSlab, WalksAgree) {
         if (exact.T.mean > 0) compareSeries("T(r)", walked.T_r, exact.T_r);
     }
     judge.expectAgreement();
+}
+
+// Forward scattering is solved as a slab; by orders.
+TEST(OrdinateHalfSpace, ForwardScatteringAgreesWithWalks) {
+    const HalfSpaceProblem problem{.sigma_a = 0.1, .sigma_s = 5, .g = 0.8, .eta = 1.4};
+    std::vector<double> edges = edges_mfp;
+    for (double& edge : edges) edge /= problem.sigma_a + (1 - problem.g) * problem.sigma_s;
+    Observer observer;
+    const HalfSpaceResult exact = solveAnyHalfSpace(problem, edges, 0, observer);
+    const HalfSpaceResult walked = walk(problem, 1e7, 5, edges, Estimator::best);
+    EXPECT_NEAR(walked.specular, exact.specular, 1e-14);
+    Judge judge;
+    for (HalfSpaceTally HalfSpaceResult::*order : {&HalfSpaceResult::all, &HalfSpaceResult::multiple}) {
+        const HalfSpaceTally &a = exact.*order, &b = walked.*order;
+        const auto compare = [&](const std::string& what, const Estimate& truth, const Estimate& mine) {
+            judge.compare(what, {mine.mean, std::hypot(mine.standard_error, truth.standard_error), 0}, truth.mean);
+        };
+        compare("total", a.total, b.total);
+        compare("<r^2>", a.mean_r2_mm2, b.mean_r2_mm2);
+        for (std::size_t i = 0; i < a.Rd.size(); ++i)
+            compare(fmt::format("Rd from {}", edges[i]), {a.Rd[i], a.standard_error[i]},
+                    {b.Rd[i], b.standard_error[i]});
+    }
+    judge.expectAgreement();
+    for (std::size_t i = 0; i < exact.single.Rd.size(); ++i)
+        EXPECT_NEAR(exact.all.Rd[i], exact.single.Rd[i] + exact.multiple.Rd[i], 1e-15);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "exact.h"
 #include "transport/exact/ordinate_stack.h"
+#include "transport/exact/ordinate_totals.h"
 #include "transport/exact/ordinates.h"
 
 namespace searchlight {
@@ -21,21 +22,24 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 SlabProblem threeLayers() { return {1, 1, {{1.37, 0.1, 10, 0.9, 1}, {1.37, 0.1, 1, 0, 1}, {1.37, 0.2, 1, 0.7, 2}}}; }
 
-// 28 cosines leave 6e-8 at g = 0.9, 1e-9 at g = 0.5, where the table ends.
+// 28 cosines leave 1e-9 at g = 0.5, where the table ends. At g = 0.9 their 56 harmonics are nearly dependent, and
+// rounding leaves up to 2e-7, by which 20 to 44 cosines differ.
 TEST(OrdinateSlab, TotalsMatchAddingDoubling) {
     const std::map<std::string, SlabProblem> slabs{{"vdH_MCML_slab", {1, 1, {{1, 1, 9, 0.75, 0.2}}}},
                                                    {"vdH_iso_t1_a1", {1, 1, {{1, 0, 1, 0, 1}}}},
                                                    {"vdH_hg05_t1_a1", {1, 1, {{1, 0, 1, 0.5, 1}}}},
                                                    {"vdH_hg05_t1_a09", {1, 1, {{1, 0.1, 0.9, 0.5, 1}}}},
+                                                   {"vdH_iso_mu05_t1_a099", {1, 1, {{1, 0.01, 0.99, 0, 1}}, 60}},
+                                                   {"vdH_hg05_mu05_t4_a099", {1, 1, {{1, 0.01, 0.99, 0.5, 4}}, 60}},
                                                    {"MCML_3layer_n137", threeLayers()}};
     const CsvTable exact = table("slabs.csv");
     for (std::size_t row = 0; row < exact.rows.size(); ++row) {
         const std::string& name = exact.rows[row][0].text;
-        if (!slabs.contains(name)) continue;  // oblique
         const SlabResult found = solveSlabTotals(slabs.at(name));
+        const bool sharp = slabs.at(name).layers.front().g > 0.5;
         const auto compare = [&](const Estimate& value, const char* what) {
             const double truth = exact.number(row, column(exact, what));
-            EXPECT_NEAR(value.mean, truth, 1e-7) << name << " " << what;
+            EXPECT_NEAR(value.mean, truth, sharp ? 3e-7 : 2e-9) << name << " " << what;
             EXPECT_LE(std::abs(value.mean - truth), value.standard_error + 1e-9) << name << " " << what;
         };
         compare(found.R, "R_diffuse");
@@ -121,7 +125,12 @@ TEST(OrdinateSlab, SaysWhatItDoesNotTake) {
     EXPECT_EQ(with([](SlabProblem&) {}), "");
     EXPECT_THAT(with([](SlabProblem& p) { p.angle_deg = 30; }), HasSubstr("oblique"));
     EXPECT_THAT(with([](SlabProblem& p) { p.beam = {BeamShape::flat, 1}; }), HasSubstr("wide"));
-    EXPECT_THAT(with([](SlabProblem& p) { p.layers.push_back({1.5, 0, 0, 0, 1}); }), HasSubstr("layer 2 is clear"));
+    EXPECT_EQ(with([](SlabProblem& p) { p.layers.push_back({1.5, 0, 0, 0, 1}); }), "");
+    EXPECT_THAT(with([](SlabProblem& p) { p.layers.push_back({1.5, 0, 0, 0, 9}); }), HasSubstr("along layer 2"));
+    EXPECT_THAT(with([](SlabProblem& p) {
+                    p.layers.push_back({1.3, 0, 0, 0, 1});
+                }),
+                HasSubstr("layer 2 is clear and of no higher"));
     EXPECT_THAT(with([](SlabProblem& p) { p.layers[0].g = 0.97; }), HasSubstr("|g| 0.97"));
     EXPECT_THAT(with([](SlabProblem& p) { p.n_below = 3; }), HasSubstr("factor of 2"));
     EXPECT_THAT(with([](SlabProblem& p) { p.layers[0].sigma_s = 0; }), HasSubstr("nothing scatters"));

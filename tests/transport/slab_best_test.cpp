@@ -111,9 +111,10 @@ TEST(SlabBest, AgreesWithTheAnalogueWalk) {
         compare("A", a.A, b.A);
         for (const auto& [what, mine, theirs] :
              {std::tuple("R(r)", &b.R_r, &a.R_r), std::tuple("R(r) of order 1", &b.R_r_single, &a.R_r_single),
-              std::tuple("T(r)", &b.T_r, &a.T_r), std::tuple("A(z)", &b.A_z, &a.A_z),
-              std::tuple("fluence", &b.fluence_z, &a.fluence_z), std::tuple("R(angle)", &b.R_a, &a.R_a),
-              std::tuple("T(angle)", &b.T_a, &a.T_a)})
+              std::tuple("T(r)", &b.T_r, &a.T_r), std::tuple("R(angle)", &b.R_a, &a.R_a),
+              std::tuple("T(angle)", &b.T_a, &a.T_a),
+              // Over sigma_a the same numbers: counted twice they would look like a shift common to all.
+              a.A.mean > 0 ? std::tuple("A(z)", &b.A_z, &a.A_z) : std::tuple("fluence", &b.fluence_z, &a.fluence_z)})
             for (std::size_t i = 0; i < mine->mean.size(); ++i)
                 compare(std::string(what) + " " + std::to_string(i), {theirs->mean[i], theirs->standard_error[i], 0},
                         {mine->mean[i], mine->standard_error[i], 0});
@@ -253,6 +254,7 @@ TEST(SlabBest, LeavesToTheAnalogueWhatThatDoesBetter) {
         // Known exactly, also there, up to the rounding of squares: not with the error of one event, 1e-3.
         EXPECT_LT(b.R_unscattered.standard_error, 1e-7);
         EXPECT_LT(b.T_unscattered.standard_error, 1e-7);
+        if (layers.size() > 1) continue;  // controls are told by a part of them, and the others are other walks
         for (std::size_t i = 0; i < a.R_r.mean.size(); ++i) {
             EXPECT_NEAR(b.R_r.mean[i], a.R_r.mean[i], 1e-12);
             EXPECT_NEAR(b.T_r.mean[i], a.T_r.mean[i], 1e-12);
@@ -265,7 +267,7 @@ TEST(SlabBest, LeavesToTheAnalogueWhatThatDoesBetter) {
 TEST(SlabBest, KnowsWhatLittleIsAbsorbedInAThinSlab) {
     for (const double g : {0.0, 0.9}) {
         const SlabProblem problem{1, 1, {{1, 1e-4, 0.0099, g, 1}}};
-        const SlabResult best = walk(problem, 4e5, 5), analogue = walk(problem, 4e5, 6, SlabEstimator::analogue);
+        const SlabResult best = walk(problem, 4e6, 5), analogue = walk(problem, 4e6, 6, SlabEstimator::analogue);
         const double counts = std::sqrt(analogue.A.mean / static_cast<double>(best.walks));
         EXPECT_LT(best.A.standard_error, 1.2 * counts) << g;
         EXPECT_LT(best.R.standard_error, 1.2 * analogue.R.standard_error) << g;

@@ -72,7 +72,7 @@ TEST(WalkControl, AnInterruptedWalkGoesOnToTheNumbersOfOneThatNeverStopped) {
         const HalfSpaceResult part = walkHalfSpace(problem, o, observer);
         EXPECT_TRUE(part.interrupted);
         EXPECT_LT(part.walks, 100'000u);
-        EXPECT_EQ(part.walks, state.chunks * state.chunk_size);
+        EXPECT_EQ(part.walks, state.walks);
     }
     EXPECT_GT(state.chunks, 16u);
     const HalfSpaceResult resumed = walkHalfSpace(problem, o, calm);
@@ -111,6 +111,53 @@ TEST(WalkControl, MoreWalksThanBeforeAreThoseOfOneLongWalk) {
     EXPECT_EQ(extended.collisions, straight.collisions);
     EXPECT_EQ(extended.flux, straight.flux);
     EXPECT_EQ(extended.R.standard_error, straight.R.standard_error);
+}
+
+// Chunks of a small first run would slow down all that follows.
+TEST(WalkControl, ASmallFirstRunGoesOnInLargerChunks) {
+    Observer calm;
+    WalkState small;
+    HalfSpaceOptions o = options(1000);
+    o.control.state = &small;
+    walkHalfSpace(problem, o, calm);
+    EXPECT_EQ(small.chunk_size, 15u);
+    EXPECT_EQ(small.walks, 990u);  // a last chunk that is not whole is walked again
+
+    WalkState state = small;
+    o = options(400'000);
+    o.control.state = &state;
+    const HalfSpaceResult straight = walkHalfSpace(problem, o, calm);
+    EXPECT_EQ(straight.walks, 400'000u);
+    EXPECT_EQ(state.chunk_size, 6250u);
+    EXPECT_EQ(state.chunks, 66u + 63u);
+    EXPECT_EQ(state.walks, 990u + 63 * 6250u);
+
+    // As ever, neither threads nor interruptions change a number.
+    state = small;
+    o.threads = 1;
+    Impatient first(2), second(9);
+    EXPECT_TRUE(walkHalfSpace(problem, o, first).interrupted);
+    EXPECT_TRUE(walkHalfSpace(problem, o, second).interrupted);
+    o.threads = 3;
+    EXPECT_EQ(numbers(walkHalfSpace(problem, o, calm)), numbers(straight));
+
+    // The walks are others than those of one run, the truth and its error are the same.
+    const HalfSpaceResult fresh = walkHalfSpace(problem, options(400'000), calm);
+    const Estimate a = straight.all.total, b = fresh.all.total;
+    EXPECT_NEAR(a.mean, b.mean, 4 * std::hypot(a.standard_error, b.standard_error));
+    EXPECT_NEAR(a.standard_error, b.standard_error, 0.4 * b.standard_error);
+}
+
+TEST(Chunks, GoOnFromWhereAnEarlierRunEnded) {
+    const WalkState state{.chunk_size = 10, .chunks = 70, .walks = 700, .sums = {}};
+    const ChunkPlan larger = ChunkPlan{2000, 30}.goingOn(&state);
+    EXPECT_EQ(larger.chunks(), 70u + 44u);
+    EXPECT_EQ(larger.firstOf(70), 700u);
+    EXPECT_EQ(larger.walksOf(112), 30u);
+    EXPECT_EQ(larger.walksOf(113), 10u);
+    EXPECT_EQ((ChunkPlan{1200, 19}.goingOn(&state).size), 10u) << "not twice as large";
+    EXPECT_EQ((ChunkPlan{500, 5}.goingOn(&state).chunks()), 70u) << "nothing is left to walk";
+    EXPECT_EQ((ChunkPlan{2000, 30}.goingOn(nullptr).chunks()), 67u);
 }
 
 TEST(WalkControl, StopsWhenTheErrorIsSmallEnoughWhateverTheThreads) {

@@ -94,7 +94,7 @@ JobResult runBenchRender(const Job& job, Engine& engine, Observer& observer) {
                             row.material, row.radius_mm, row.report.receivers, row.report[Stage::irradiance].ms,
                             row.report[Stage::visible].ms, stage("pilot"), stage("sum"), ns, row.picture_ms);
         }
-    result.json = document.dump(1);
+    result.json = jsonText(document);
     return result;
 }
 

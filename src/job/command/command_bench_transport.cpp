@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/files.h"
 #include "base/parallel.h"
 #include "job/command_table.h"
 #include "job/json.h"
@@ -143,18 +142,17 @@ std::vector<SlabCase> slabCases() {
 
 // Merits of R, T and A, of R(r) and T(r) at 5, 10, 20 and 50 annuli, of angles at 45 degrees, and of A(z) at a tenth
 // of the depth that is tallied.
-Json slabRow(const SlabCase& one, SlabEstimator estimator, double seconds, std::uint64_t seed) {
+Json slabRow(const SlabCase& one, SlabEstimator estimator, double seconds, std::uint64_t seed, Observer& observer) {
     SlabOptions options;
     options.estimator = estimator;
     options.seed = seed;
     options.threads = 1;
     for (int i = 0; i <= bins_to_5; ++i) options.edges_mm.push_back(one.step_mm * i);
     options.depth_mm = one.step_mm * options.depths;
-    Observer quiet;
     const auto timed = [&](std::uint64_t walks) {
         options.walks = walks;
         const std::clock_t begin = std::clock();
-        SlabResult result = walkSlab(one.problem, options, quiet);
+        SlabResult result = walkSlab(one.problem, options, observer);
         return std::pair(std::move(result), static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
     };
     const double once = std::max(timed(first_walks).second, 1e-4);
@@ -203,6 +201,16 @@ double speedup(Estimator estimator, double seconds, Observer& observer) {
 
 std::string meritText(const Json& merit) { return merit.is_null() ? "-" : fmt::format("{:.3g}", merit.get<double>()); }
 
+// Of a row's own walks nothing is said, but they stop when asked to.
+class Quiet : public Observer {
+public:
+    explicit Quiet(const Observer& observer) : observer_(observer) {}
+    bool cancelled() const override { return observer_.cancelled(); }
+
+private:
+    const Observer& observer_;
+};
+
 JobResult runBenchTransport(const Job& job, Engine& engine, Observer& observer) {
     const Options options(job);
     const double seconds = options.number("seconds");
@@ -222,7 +230,7 @@ JobResult runBenchTransport(const Job& job, Engine& engine, Observer& observer) 
     const std::vector<SlabCase> slabs = slabCases();
     const std::uint64_t total = std::size(cases) * 2 * walkers.size() + 2 * slabs.size();
     std::uint64_t done = 0;
-    Observer quiet;  // of each row's own walks
+    Quiet quiet(observer);
     for (const Case& one : cases)
         for (const int bins : {bins_to_5, bins_to_10})
             for (const Walker& walker : walkers) {
@@ -244,7 +252,7 @@ JobResult runBenchTransport(const Job& job, Engine& engine, Observer& observer) 
         for (const SlabEstimator estimator : {SlabEstimator::analogue, SlabEstimator::best}) {
             if (observer.cancelled()) throw interruptedError();
             observer.progress("bench", done++, total, "rows");
-            Json row = slabRow(one, estimator, seconds, job.seed);
+            Json row = slabRow(one, estimator, seconds, job.seed, quiet);
             result.text += fmt::format("{:20} {:10} {:9.3g} {:12.3g} {:>9} {:>9} {:>9}", one.name,
                                        row["estimator"].get<std::string>(), row["walks_per_s"].get<double>(),
                                        row["collisions_per_s"].get<double>(), meritText(row["merit_R"]),
@@ -262,8 +270,8 @@ JobResult runBenchTransport(const Job& job, Engine& engine, Observer& observer) 
     result.text += fmt::format("{} threads walk {:.2f} times as fast as one, best {:.2f} times ({})\n",
                                hardwareThreads(), document["speedup"].get<double>(),
                                document["speedup_best"].get<double>(), document["instruction_set"].get<std::string>());
-    result.json = document.dump(1);
-    if (!job.output.empty()) writeFile(job.output, result.json + "\n");
+    result.json = jsonText(document);
+    writeDocument(result, job);
     return result;
 }
 

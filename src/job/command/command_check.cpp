@@ -41,7 +41,7 @@ JobResult gridResult(const Model& model, const ModelSanity& sanity, const Job& j
     document["scaling"] = sanity.scales ? Json{{"error", sanity.scaling}, {"where", sanity.scaling_where}} : Json();
 
     JobResult result;
-    result.json = document.dump(1);
+    result.json = jsonText(document);
     const SanityTotal& most = sanity.most;
     const auto where = [](const std::string& place) { return place.empty() ? "" : ", at " + place; };
     result.text = fmt::format(
@@ -92,7 +92,7 @@ JobResult runCheck(const Job& job, Engine& engine, Observer& observer) {
     document["failed"] = failed;
     document["reported"] = reported;
     document["skipped"] = skipped;
-    result.json = document.dump(1);
+    result.json = jsonText(document);
     return result;
 }
 

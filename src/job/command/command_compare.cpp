@@ -35,7 +35,7 @@ JobResult runCompare(const Job& job, Engine&, Observer&) {
     document["largest"] = error.largest;
     document["pixels"] = error.pixels;
     JobResult result;
-    result.json = document.dump(1);
+    result.json = jsonText(document);
     result.text = fmt::format("{} against {}, {} pixels\n", path, reference_path, error.pixels);
     const auto line = [&](std::string_view name, double value, std::string_view meaning) {
         result.text += fmt::format("  {:<16} {:>10.5g}  {}\n", name, value, meaning);

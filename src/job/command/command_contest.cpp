@@ -172,7 +172,7 @@ JobResult runContest(const Job& job, Engine& engine, Observer& observer) {
     drawSheet(sheet, folder / ("sheet" + sheetFormats().front()));
     writeFile(folder / "contest.csv", contestCsv(contest));
     JobResult result;
-    result.json = document.dump(1);
+    result.json = jsonText(document);
     writeFile(folder / "contest.json", result.json + "\n");
     writeFile(folder / "index.html", reportHtml(report));
     result.text = contestText(contest) + fmt::format("\nwrote {}\n", (folder / "index.html").string());
@@ -232,6 +232,7 @@ Command contestCommand() {
             .options = std::move(options),
             .uses_scene = true,
             .uses_seed = true,
+            .writes_folder = true,
             .output = "the folder of pictures, tables and page (default: contest)",
             .run = runContest};
 }

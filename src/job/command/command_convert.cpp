@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "base/files.h"
 #include "base/text.h"
 #include "job/command_table.h"
 #include "job/json.h"
@@ -165,8 +164,8 @@ JobResult runConvert(const Job& job, Engine& engine, Observer& observer) {
             conventionJson(*convention, written, readBackError(*convention, medium, written, context)));
         result.text += conventionText(*convention, written);
     }
-    result.json = document.dump(1);
-    if (!job.output.empty()) writeFile(job.output, result.json + "\n");
+    result.json = jsonText(document);
+    writeDocument(result, job);
     return result;
 }
 

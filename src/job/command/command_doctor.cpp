@@ -77,7 +77,7 @@ JobResult runDoctor(const Job& job, Engine&, Observer&) {
     document["threads"] = hardwareThreads();
     document["figure_formats"] = formats;
     result.passed = any;
-    result.json = document.dump(1);
+    result.json = jsonText(document);
     return result;
 }
 

@@ -300,7 +300,7 @@ JobResult runFit(const Job& job, Engine& engine, Observer& observer) {
         document["file"] = job.output;
         observer.log(LogLevel::info, fmt::format("wrote {}", job.output));
     }
-    answer.json = document.dump(1);
+    answer.json = jsonText(document);
     return answer;
 }
 

@@ -53,7 +53,7 @@ JobResult runInvert(const Job& job, Engine& engine, Observer& observer) {
     document["unit"] = "1/mm";
 
     JobResult result;
-    result.json = document.dump(1);
+    result.json = jsonText(document);
     result.text = fmt::format("{}: ld is 1/sigma_tr with the {} diffusion coefficient; Rdr through {}\n",
                               loaded.model.file.title, inversion.mean_free_path,
                               inversion.from_profile ? "the integral of the profile" : "DiffuseReflectance");

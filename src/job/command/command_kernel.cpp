@@ -93,7 +93,7 @@ JobResult runCheck(const Job& job, const Options& options, const Subject& subjec
         document["kernels"].push_back(std::move(json));
         result.passed = result.passed && faults.empty();
     }
-    result.json = document.dump(1);
+    result.json = jsonText(document);
     return result;
 }
 
@@ -114,7 +114,7 @@ JobResult runAll(const Job& job, const Options& options, const Subject& subject,
     document["truth"] = truthJson(truth, judge);
     document["kernels"] = Json::array();
     for (const JudgedKernel& kernel : kernels) document["kernels"].push_back(judgedJson(kernel));
-    result.json = document.dump(1);
+    result.json = jsonText(document);
     if (job.output.empty()) return result;
     if (job.output.ends_with(".html")) {
         Report report = kernelPage(subject, truth, judge, kernels);
@@ -150,7 +150,7 @@ JobResult runKernel(const Job& job, Engine& engine, Observer& observer) {
     document["truth"] = truthJson(truth, judge);
     document["method"] = options.text("method");
     document.update(judgedJson(judged));
-    result.json = document.dump(1);
+    result.json = jsonText(document);
     const std::string format = options.text("export");
     const std::string shown = exportedKernel(format.empty() ? "hlsl" : format, judged, subject, truth);
     if (format.empty())

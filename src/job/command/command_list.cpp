@@ -32,7 +32,7 @@ JobResult runModels(const Job& job, Engine&, Observer&) {
             result.text +=
                 fmt::format("{:<22}   --set {}={}  {}\n", "", param.name, valueText(param.value), rangeText(param));
     }
-    result.json = document.dump(1);
+    result.json = jsonText(document);
     return result;
 }
 
@@ -62,7 +62,7 @@ JobResult runMaterials(const Job& job, Engine&, Observer&) {
             medium.sigma_s.b, medium.g.g, material.unit_known ? "" : "  unit unknown: not comparable");
     }
     result.text += "sigma in 1/mm; sigma_s is not reduced, or stands for sigma_s' where g is 0 (--json says which).\n";
-    result.json = document.dump(1);
+    result.json = jsonText(document);
     return result;
 }
 

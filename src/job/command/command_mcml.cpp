@@ -21,29 +21,56 @@ SlabOptions walkOf(const McmlRun& run, const Job& job, const Options& options) {
     return walk;
 }
 
+// Before hours of walking, not after: every run can be walked, and written without harm to another file of the job.
+void checkRuns(const std::vector<McmlRun>& runs, const std::string& path, const Job& job, const Options& options) {
+    for (std::size_t i = 0; i < runs.size(); ++i) try {
+            const std::string& output = runs[i].output;
+            slabLayout(slabProblem(runs[i]), walkOf(runs[i], job, options));
+            const auto refuse = [&](std::string_view what) {
+                throw inputError(fmt::format("it would write {} over {}", output, what),
+                                 "give its output another name");
+            };
+            if (sameFile(output, path)) refuse("the input file");
+            if (!job.output.empty() && sameFile(output, job.output)) refuse("the JSON document of -o");
+            for (std::size_t j = 0; j < i; ++j)
+                if (sameFile(output, runs[j].output)) refuse(fmt::format("that of run {}", j + 1));
+            checkWritable(output);
+        } catch (const Error& error) {
+            throw inputError(fmt::format("run {}: {}", i + 1, error.file.empty() ? error.message : error.what()),
+                             error.file.empty() ? error.hint : std::string())
+                .at(path);
+        }
+    if (!job.output.empty() && sameFile(job.output, path))
+        throw inputError("-o would write over the input file", "give another name").at(path);
+}
+
 JobResult runMcml(const Job& job, Engine&, Observer& observer) {
     const Options options(job);
     const std::string& path = options.text("input");
     const std::vector<McmlRun> runs = parseMci(readFile(path), path);
-    for (std::size_t i = 0; i < runs.size(); ++i) try {  // before hours of walking, not after
-            slabLayout(slabProblem(runs[i]), walkOf(runs[i], job, options));
-        } catch (const Error& error) {
-            throw inputError(fmt::format("run {}: {}", i + 1, error.message), error.hint).at(path);
-        }
+    checkRuns(runs, path, job, options);
 
     JobResult result;
     Json document = documentJson("searchlight-mcml/1", job);
     document["per"] = "incident";
     document["runs"] = Json::array();
-    std::vector<std::string> files;
     for (std::size_t i = 0; i < runs.size(); ++i) {
         const McmlRun& run = runs[i];
         const SlabProblem problem = slabProblem(run);
         SlabOptions walk = walkOf(run, job, options);
-        const SlabResult walked = walkSlab(problem, walk, observer);
+        SlabResult walked;
+        try {
+            walked = walkSlab(problem, walk, observer);
+        } catch (const Error& error) {
+            if (error.kind != ErrorKind::interrupted || i == 0) throw;
+            result.interrupted = true;
+            break;
+        }
         McmlRun written = run;
         written.photons = walk.walks;
-        files.push_back(mcoText(mcmlOutput(written, walked)));
+        // As each run ends, so that an interruption keeps those before. Names are relative to the working directory, as
+        // MCML has them.
+        writeOutput(result, [&] { writeFile(run.output, mcoText(mcmlOutput(written, walked))); });
         walk.maps = false;  // they are in the .mco file
         Json json{{"file", run.output}};
         const Json numbers = slabJson(problem, walk, walked);
@@ -52,10 +79,12 @@ JobResult runMcml(const Job& job, Engine&, Observer& observer) {
         result.text += fmt::format("run {} of {}: {}, {:.3g} photons\n{}\n", i + 1, runs.size(), run.output,
                                    static_cast<double>(walk.walks), slabText(problem, walked));
     }
-    // Names are relative to the working directory, as MCML has them.
-    for (std::size_t i = 0; i < runs.size(); ++i) writeFile(runs[i].output, files[i]);
-    result.json = document.dump(1);
-    if (!job.output.empty()) writeFile(job.output, result.json + "\n");
+    if (result.interrupted) {
+        document["interrupted"] = true;
+        result.text += fmt::format("interrupted after {} of {} runs\n", document["runs"].size(), runs.size());
+    }
+    result.json = jsonText(document);
+    writeDocument(result, job);
     return result;
 }
 

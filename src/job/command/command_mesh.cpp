@@ -113,7 +113,7 @@ JobResult runMesh(const Job& job, Engine&, Observer& observer) {
         throw usageError("--uvs and --picture are about an atlas", "--atlas 256 makes one");
     }
     if (!job.output.empty()) writeMesh(job.output, mesh);
-    return {.text = text, .json = document.dump(1)};
+    return {.text = text, .json = jsonText(document)};
 }
 
 }  // namespace

@@ -147,14 +147,14 @@ JobResult runPaper(const Job& job, Engine& engine, Observer& observer) {
             writeFile(stem + ".txt", text);
             Json whole = documentJson("searchlight-paper/1", job);
             for (const auto& [key, value] : json.items()) whole[key] = value;
-            writeFile(stem + ".json", whole.dump(1) + "\n");
+            writeFile(stem + ".json", jsonText(whole) + "\n");
             observer.log(LogLevel::info, fmt::format("wrote {}", files.front()));
             for (const char* kind : {".txt", ".json"}) files.push_back(stem + kind);
             json["files"] = files;
         }
         document["figures"].push_back(std::move(json));
     }
-    result.json = document.dump(1);
+    result.json = jsonText(document);
     return result;
 }
 
@@ -202,6 +202,7 @@ Command paperCommand() {
                         option::threads()},
             .positional = "paper",
             .uses_seed = true,
+            .writes_folder = true,
             .output = "the folder of the figures, their data (.csv) and findings (.txt, .json)",
             .run = runPaper};
 }

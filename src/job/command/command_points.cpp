@@ -64,7 +64,7 @@ JobResult runPoints(const Job& job, Engine&, Observer& observer) {
                                    wanted.count, prettyNumber(std::sqrt(mean)), length, prettyNumber(sum, 6), squared,
                                    prettyNumber(100 * scatter, 2), points.hit ? "read" : "made", seconds);
     if (!in_mm) text += "Lengths are in the mesh's own unit; --scale makes them mm.\n";
-    return {.text = std::move(text), .json = document.dump(1)};
+    return {.text = std::move(text), .json = jsonText(document)};
 }
 
 }  // namespace

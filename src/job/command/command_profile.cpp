@@ -61,7 +61,7 @@ JobResult runProfile(const Job& job, Engine& engine, Observer&) {
     if (interpolation_error > 0) document["interpolation_error"] = interpolation_error;
 
     JobResult result;
-    result.json = document.dump(1);
+    result.json = jsonText(document);
     result.text = fmt::format("{} of {}, per unit {} flux, {}\n{:>12}", loaded.model.file.title, subject.name,
                               options.text("per"), loaded.evaluator->backend(), "r / mm");
     for (int c = 0; c < medium.channels; ++c) result.text += fmt::format(" {:>14}", "R_d " + channelName(medium, c));

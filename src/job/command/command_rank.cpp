@@ -105,7 +105,7 @@ JobResult runRank(const Job& job, Engine& engine, Observer& observer) {
         document["page"] = job.output;
         observer.log(LogLevel::info, fmt::format("wrote {}", job.output));
     }
-    result.json = document.dump(1);
+    result.json = jsonText(document);
     return result;
 }
 

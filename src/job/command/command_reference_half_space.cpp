@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "base/files.h"
 #include "base/text.h"
 #include "job/beam_option.h"
 #include "job/command_table.h"
@@ -14,6 +13,7 @@
 #include "job/shared_options.h"
 #include "transport/exact/exact_half_space.h"
 #include "transport/exact/ordinate_half_space.h"
+#include "transport/walk/radial_edges.h"
 
 namespace searchlight {
 
@@ -58,14 +58,13 @@ Json tallyJson(const ReferenceRun& run, HalfSpaceTally HalfSpaceResult::*order, 
     return tally;
 }
 
-std::vector<double> edgesOf(const Options& options) {
+// Equal annuli to a radius that is given or solved for; else they widen outwards, as in plots.
+std::vector<double> edgesOf(const Options& options, const Medium& medium) {
     if (option::edgesGiven(options)) return options.list("edges");
-    if (!options.given("bins") && !options.given("radii_max")) return {};
-    if (!options.given("radii_max")) throw usageError("--bins needs --radii-max", "in mm, such as --radii-max 10");
     const int bins = static_cast<int>(options.number("bins"));
-    std::vector<double> edges;
-    for (int i = 0; i <= bins; ++i) edges.push_back(options.number("radii_max") * i / bins);
-    return edges;
+    if (const double range = options.number("radii_max"); range > 0) return linearEdges(bins, range);
+    if (!options.toggle("exact")) return plotEdges(medium, 0, bins);
+    return options.given("bins") ? linearEdges(bins, plotEdges(medium, 0, 1).back()) : std::vector<double>{};
 }
 
 void refuseWhite(const Options& options) {
@@ -111,11 +110,10 @@ void refuseExact(const Options& options, const Subject& subject) {
     for (int c = 0; c < subject.medium.channels; ++c) {
         if (!subject.medium.scatters(c)) continue;
         const HalfSpaceProblem problem = halfSpaceProblem(subject.medium, c, options.number("angle_deg"));
-        const std::string reason = whyNotOrdinates(problem);
-        if (!whyNotExact(problem).empty() && !reason.empty())
+        if (const std::string reason = whyNotExactHalfSpace(problem); !reason.empty())
             throw usageError(
                 fmt::format("{} has no exact solution: {}", subject.name, reason),
-                "--exact takes normal incidence, |g| up to 0.5, eta 0.7 to 2 and albedo up to 0.99999; without "
+                "--exact takes normal incidence, |g| up to 0.9, eta 0.5 to 2 and albedo up to 0.99999; without "
                 "it the problem is walked");
     }
 }
@@ -151,7 +149,7 @@ JobResult runReferenceHalfSpace(const Job& job, Engine& engine, Observer& observ
     reference.walks = static_cast<std::uint64_t>(options.number("walks"));
     reference.seed = job.seed;
     reference.angle_deg = options.number("angle_deg");
-    reference.edges_mm = edgesOf(options);
+    reference.edges_mm = edgesOf(options, subject.medium);
     reference.grid = static_cast<int>(options.number("grid"));
     reference.grid_extent_mm = options.number("grid_extent");
     reference.threads = static_cast<int>(options.number("threads"));
@@ -167,15 +165,15 @@ JobResult runReferenceHalfSpace(const Job& job, Engine& engine, Observer& observ
     if (reference.white) refuseWhite(options);
     reference.exact = options.toggle("exact");
     if (reference.exact) refuseExact(options, subject);
-    if (reference.edges_mm.empty() && !reference.exact) reference.edges_mm = plotEdges(subject.medium, 0, 100);
-    SavedWalks saved(options, job, problemJson(subject.medium, reference), Rgb::channels);
+    SavedWalks saved(options, job, problemJson(subject.medium, reference), Rgb::channels, observer);
     if (reference.white || reference.exact)
         for (const char* name : {"resume", "until_error"})
             if (options.given(name))
                 throw usageError(fmt::format("--{} is for walks", name), "without --white, --exact");
     reference.control = [&](int channel) { return saved.control(static_cast<std::size_t>(channel)); };
     const ReferenceRun run = runReference(subject.medium, reference, observer);
-    saved.save();
+    JobResult result;
+    saved.save(result);
     if (run.interrupted && !std::ranges::any_of(run.channels, [](const auto& c) { return c.has_value(); }))
         throw interruptedError();
 
@@ -218,8 +216,7 @@ JobResult runReferenceHalfSpace(const Job& job, Engine& engine, Observer& observ
                             : estimator == Estimator::best ? "best"
                                                            : "analogue";
 
-    JobResult result;
-    result.json = document.dump(1);
+    result.json = jsonText(document);
     const std::string method =
         reference.exact ? "exact" : fmt::format("{:.3g} walks per channel", static_cast<double>(any->walks));
     result.text = fmt::format("{}, {}, {} deg, per unit incident flux\n{:<4} {:>9}  {:>22}  {:>22}  {:>22}\n",
@@ -228,7 +225,8 @@ JobResult runReferenceHalfSpace(const Job& job, Engine& engine, Observer& observ
         const auto& walked = run.channels[static_cast<std::size_t>(c)];
         if (!walked) {
             result.text +=
-                fmt::format("{:<4} not applicable: this channel does not scatter\n", channelName(run.medium, c));
+                fmt::format("{:<4} {}\n", channelName(run.medium, c),
+                            run.medium.scatters(c) ? "not reached" : "not applicable: this channel does not scatter");
             continue;
         }
         result.text += fmt::format("{:<4} {:>9.6f}  {:>22}  {:>22}  {:>22}\n", channelName(run.medium, c),
@@ -249,8 +247,8 @@ JobResult runReferenceHalfSpace(const Job& job, Engine& engine, Observer& observ
             reference.gl ? any->instruction_set : fmt::format("{} threads ({})", any->threads, any->instruction_set),
             run.seconds());
     result.interrupted = run.interrupted;
-    if (run.interrupted) result.text += "interrupted; channels that are missing were not reached\n";
-    if (!job.output.empty()) writeFile(job.output, result.json + "\n");
+    if (run.interrupted) result.text += "interrupted\n";
+    writeDocument(result, job);
     return result;
 }
 
@@ -284,7 +282,7 @@ Command referenceHalfSpaceCommand() {
                  {.name = "exact",
                   .type = ParamType::toggle,
                   .value = false,
-                  .doc = "solve without walks: normal incidence, |g| up to 0.5, eta 0.7 to 2; stderr then bounds the "
+                  .doc = "solve without walks: normal incidence, |g| up to 0.9, eta 0.5 to 2; stderr then bounds the "
                          "numerical error"},
                  option::walkBackend(),
                  option::threads(),

@@ -1,5 +1,7 @@
 // reference sphere, reference mesh: the exitance that light in a closed body leaves on its surface, or the radiance
 // that a camera sees of it, by Monte Carlo.
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "base/error.h"
@@ -44,7 +46,11 @@ JobResult runReferenceSphere(const Job& job, Engine& engine, Observer& observer)
     const Options options(job);
     checkPictureEnding(job.output);
     Scene scene = job.scene;
-    scene.object = "sphere";
+    if (scene.object != "sphere")
+        throw usageError(fmt::format("'{}' is not the sphere that is walked", scene.object),
+                         fmt::format("searchlight reference mesh {}", scene.object));
+    if (scene.scale != Scene{}.scale && scene.scale != 2 * options.number("radius"))
+        throw usageError("--scale is not for reference sphere", "give --radius, in mm");
     scene.scale = 2 * options.number("radius");
     BodySetup setup = setupOf(job, engine, options, scene);
     if (options.text("backend") == "gl") setup.walk.gl = &engine.context();

@@ -12,6 +12,7 @@
 #include "job/reference/slab_json.h"
 #include "job/shared_options.h"
 #include "transport/exact/ordinate_slab.h"
+#include "transport/exact/ordinate_totals.h"
 #include "transport/mcml/mcml_run.h"
 #include "transport/walk/radial_edges.h"
 
@@ -34,8 +35,13 @@ McmlRun runOf(const std::string& path, int number) {
 
 // 10 transport mean free paths of the first layer that does anything.
 double naturalRange(const SlabProblem& problem) {
-    for (const SlabLayer& layer : problem.layers)
-        if (!layer.clear()) return 10 / (layer.sigma_a + (1 - layer.meanCosine()) * layer.sigma_s);
+    for (const SlabLayer& layer : problem.layers) {
+        if (layer.clear()) continue;
+        const double range = 10 / (layer.sigma_a + (1 - layer.meanCosine()) * layer.sigma_s);
+        if (!(range <= 1e9))
+            throw inputError("a layer is too clear for radii to be chosen", "give --radii-max and --depth");
+        return range;
+    }
     return 10;
 }
 
@@ -90,31 +96,39 @@ Json problemJson(const SlabProblem& problem, const SlabOptions& options) {
 
 // Says why where there is no exact solution.
 void refuseExact(const Options& options, const SlabSubject& subject) {
-    for (const char* name : {"walks", "estimator", "angles", "depths", "depth", "resume", "until_error"})
+    for (const char* name : {"walks", "estimator", "depths", "depth", "resume", "until_error"})
         if (options.given(name))
             throw usageError(fmt::format("--exact and --{} exclude each other",
                                          name == std::string_view("until_error") ? "until-error" : name),
                              "give one of the two");
     if (options.toggle("maps") || options.number("grid") > 0)
-        throw usageError("--exact has no --maps and no --grid", "it solves for R(r), T(r) and totals");
+        throw usageError("--exact has no --maps and no --grid", "it solves for R(r), T(r), angles and totals");
     if (options.text("backend") == "gl")
         throw usageError("--backend gl and --exact exclude each other", "OpenGL walks");
-    if (const std::string reason = whyNotOrdinateSlab(subject.problem); !reason.empty())
+    if (const std::string reason = whyNotOrdinateTotals(subject.problem); !reason.empty())
         throw usageError(fmt::format("{} has no exact solution: {}", subject.name, reason), ordinateSlabsCovered());
+    const std::string reason = whyNotOrdinateSlab(subject.problem);
+    for (const char* name : {"edges", "bins", "radii_max"})
+        if (options.given(name) && !reason.empty())
+            throw usageError(fmt::format("{} has no exact R(r) and T(r): {}", subject.name, reason),
+                             "without radii --exact gives totals and angles");
 }
 
 JobResult solveReferenceSlab(const Job& job, const SlabSubject& subject, Observer& observer) {
-    const SlabResult solved = solveSlab(subject.problem, subject.options, observer);
+    const std::string no_profile = whyNotOrdinateSlab(subject.problem);
+    const SlabResult solved = no_profile.empty() ? solveSlab(subject.problem, subject.options, observer)
+                                                 : solveSlabTotals(subject.problem, subject.options.angles);
     Json document = documentJson("searchlight-slab/1", job);
     document["per"] = "incident";
     const Json numbers = exactSlabJson(subject.problem, subject.options, solved);
     for (const auto& [key, value] : numbers.items()) document[key] = value;
     document["estimator"] = "exact";
     JobResult result;
-    result.json = document.dump(1);
-    result.text = fmt::format("{}, exact, 0 deg, per unit incident flux\n{}", subject.name,
+    result.json = jsonText(document);
+    result.text = fmt::format("{}, exact, {} deg, per unit incident flux\n{}", subject.name, subject.problem.angle_deg,
                               exactSlabText(subject.problem, solved));
-    if (!job.output.empty()) writeFile(job.output, result.json + "\n");
+    if (!no_profile.empty()) result.text += fmt::format("no R(r) and T(r): {}\n", no_profile);
+    writeDocument(result, job);
     return result;
 }
 
@@ -154,10 +168,11 @@ JobResult runReferenceSlab(const Job& job, Engine& engine, Observer& observer) {
         walk.gl = &engine.context();
     }
     if (options.text("estimator") == "best" && !walk.gl) walk.estimator = SlabEstimator::best;
-    SavedWalks saved(options, job, problemJson(subject.problem, walk), 1);
+    SavedWalks saved(options, job, problemJson(subject.problem, walk), 1, observer);
     walk.control = saved.control(0);
     const SlabResult walked = walkSlab(subject.problem, walk, observer);
-    saved.save();
+    JobResult result;
+    saved.save(result);
     if (walked.interrupted && walked.walks == 0) throw interruptedError();
 
     Json document = documentJson("searchlight-slab/1", job);
@@ -167,14 +182,14 @@ JobResult runReferenceSlab(const Job& job, Engine& engine, Observer& observer) {
     document["estimator"] = walked.estimator == SlabEstimator::best ? "best" : "analogue";
     document["foresees"] = walked.foresees;
     document["backend"] = options.text("backend");
-    JobResult result;
-    result.json = document.dump(1);
+    if (walked.interrupted) document["interrupted"] = true;
+    result.json = jsonText(document);
     result.text =
         fmt::format("{}, {:.3g} walks, {} deg, per unit incident flux\n{}", subject.name,
                     static_cast<double>(walked.walks), subject.problem.angle_deg, slabText(subject.problem, walked));
     result.interrupted = walked.interrupted;
     if (walked.interrupted) result.text += "interrupted\n";
-    if (!job.output.empty()) writeFile(job.output, result.json + "\n");
+    writeDocument(result, job);
     return result;
 }
 
@@ -240,8 +255,8 @@ Command referenceSlabCommand() {
                     {.name = "exact",
                      .type = ParamType::toggle,
                      .value = false,
-                     .doc = "solve R(r), T(r) and totals without walks: normal incidence, no clear layers, |g| up "
-                            "to 0.9; stderr then estimates the numerical error"},
+                     .doc = "solve totals, angles and, at normal incidence, R(r) and T(r) without walks: |g| up to "
+                            "0.9; stderr then estimates the numerical error"},
                     option::walkBackend(),
                     option::threads(),
                     option::untilError("R, T and A"),

@@ -281,7 +281,7 @@ JobResult pictureOf(const Job& job, Engine& engine, KeptRenderer& kept, Observer
     document["ms"]["total"] = ms(end - begin);
 
     JobResult result;
-    result.json = document.dump(1);
+    result.json = jsonText(document);
     result.text = fmt::format("{} in {}, {}, {}x{}\n", job.scene.object, subject.name, job.scene.model.id,
                               settings.width, settings.height);
     if (report.points > 0)

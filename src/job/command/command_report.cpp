@@ -280,7 +280,7 @@ JobResult runReport(const Job& job, Engine& engine, Observer& observer) {
     }
     document["page"] = (folder / "index.html").string();
     result.text += fmt::format("\nwrote {}\n", (folder / "index.html").string());
-    result.json = document.dump(1);
+    result.json = jsonText(document);
     return result;
 }
 
@@ -295,6 +295,7 @@ Command reportCommand() {
                         option::angle(), option::radiiMax(), option::bins(64), option::backend(), option::threads()},
             .uses_material = true,
             .uses_seed = true,
+            .writes_folder = true,
             .output = "folder of the page, its figures and its numbers",
             .run = runReport};
 }

@@ -83,7 +83,7 @@ void writeLayers(const Job& job, const Pictures& pictures, const Json& document)
                      {"job", jobJson(job)},
                      {"seed", fmt::format("{}", job.seed)},
                      {"quantity", "diffuse exit: T21 M / (pi 4 C_phi(1/eta)), M a mean over surface cells"},
-                     {"errors", document.dump()}};
+                     {"errors", jsonText(document, -1)}};
     writeImage(job.output, file);
 }
 
@@ -172,7 +172,7 @@ JobResult runSpheres(const Job& job, Engine& engine, Observer& observer) {
     result.text += fmt::format("picture: relative RMSE {:.2f} %, mean {}, SSIM {:.4f}, FLIP {:.4f}\n",
                                100 * image.relative_rmse, percent(image.mean_difference), image.ssim, image.flip);
     for (const std::string& note : subject.notes) result.text += note + "\n";
-    result.json = document.dump(1);
+    result.json = jsonText(document);
     if (isSheet(job.output))
         writeSheet(job, pictures, material.model.file.title, subject.name,
                    "Mean difference by channel: " + join(means, ", ") + ".", options.number("full_scale"));

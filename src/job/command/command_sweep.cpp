@@ -99,7 +99,7 @@ JobResult listing(const Sweep& sweep) {
         result.text += fmt::format("{:4}  {}\n", cell.number, cellName(sweep, cell));
         cells.push_back({{"cell", cell.number}, {"job", Json::parse(jobJson(cell.job))}});
     }
-    result.json = cells.dump(1);
+    result.json = jsonText(cells);
     return result;
 }
 
@@ -153,7 +153,7 @@ JobResult runSweep(const Job& job, Engine& engine, Observer& observer) {
             result.text += path.string() + "\n";
             document["files"].push_back(path.string());
         }
-    result.json = document.dump(1);
+    result.json = jsonText(document);
     return result;
 }
 
@@ -192,6 +192,7 @@ Command sweepCommand() {
                          .doc = "only print the job of this cell, for `searchlight run`"}},
             .positional = "sweep",
             .writes_in_parts = true,
+            .writes_folder = true,
             .output = "the folder of the cells (default: the sweep file's name)",
             .run = runSweep};
 }

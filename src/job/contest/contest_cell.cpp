@@ -130,12 +130,12 @@ void writeCell(const fs::path& folder, const ContestCell& cell, const CellRun& r
                     {"stage_ms", run.stage_ms},
                     {"shared_ms", run.shared_ms},
                     {"notes", run.notes}};
-    writeFile(cellPath(folder, cell, ".json"), json.dump(1) + "\n");
+    writeFile(cellPath(folder, cell, ".json"), jsonText(json) + "\n");
 }
 
 std::optional<CellRun> readCell(const fs::path& folder, const ContestCell& cell) {
     const fs::path numbers = cellPath(folder, cell, ".json"), picture = cellPath(folder, cell, ".exr");
-    if (!fs::exists(numbers) || !fs::exists(picture)) return std::nullopt;
+    if (std::error_code error; !fs::exists(numbers, error) || !fs::exists(picture, error)) return std::nullopt;
     const Json json = Json::parse(readFile(numbers), nullptr, false);
     if (!json.is_object() || json.value("version", Json()) != Json(version()) ||
         json.value("job", Json()) != jobOf(cell))

@@ -36,7 +36,7 @@ Json withoutOutput(Json job) {
 
 std::optional<Kept> readKept(const fs::path& path, const Job& job) {
     const fs::path numbers = fs::path(path).replace_extension(".json");
-    if (!fs::exists(path) || !fs::exists(numbers)) return std::nullopt;
+    if (std::error_code error; !fs::exists(path, error) || !fs::exists(numbers, error)) return std::nullopt;
     const Json document = Json::parse(readFile(numbers), nullptr, false);
     if (!document.is_object() || document.value("version", Json()) != Json(version())) return std::nullopt;
     if (!document.contains("job") || withoutOutput(document["job"]) != withoutOutput(Json::parse(jobJson(job))))
@@ -50,6 +50,7 @@ Kept runKept(const Job& job, const ReferenceAims& aims, Engine& engine, KeptRend
     if (aims.resume)
         if (std::optional<Kept> kept = readKept(path, job)) return std::move(*kept);
     const JobResult result = renderer ? renderPicture(job, engine, *renderer, observer) : run(job, engine, observer);
+    if (!result.failure.empty()) throw inputError(result.failure);
     if (result.interrupted) throw interruptedError();
     writeFile(fs::path(path).replace_extension(".json"), result.json + "\n");
     return {readImage(path.string()), Json::parse(result.json)};

@@ -47,7 +47,7 @@ JobResult figureResult(Figure figure, const Job& job, Observer& observer, const 
         document["file"] = job.output;
         observer.log(LogLevel::info, fmt::format("wrote {}", job.output));
     }
-    result.json = document.dump(1);
+    result.json = jsonText(document);
     return result;
 }
 

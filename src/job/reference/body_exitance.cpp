@@ -123,9 +123,10 @@ JobResult exitanceOfBody(const Job& job, const BodySetup& setup, const Body& bod
                  {"area_mm2", body.area()},
                  {"volume_mm3", body.volume()}};
     if (setup.walk.gl) problem["backend"] = "gl";
-    SavedWalks saved(Options(job), job, std::move(problem), Rgb::channels);
+    SavedWalks saved(Options(job), job, std::move(problem), Rgb::channels, observer);
     const Channels channels = walkChannels(body, setup, saved, observer);
-    saved.save();
+    JobResult result;
+    saved.save(result);
     const bool interrupted = std::ranges::any_of(channels, [](const auto& c) { return c && c->interrupted; });
     if (std::ranges::none_of(channels, [](const auto& c) { return c.has_value(); })) throw interruptedError();
     Json document = documentJson("searchlight-reference/1", job);
@@ -156,11 +157,10 @@ JobResult exitanceOfBody(const Job& job, const BodySetup& setup, const Body& bod
                          {"quantity",
                           "diffuse exit: T21 M / (pi 4 C_phi(1/eta)), "
                           "M a mean over surface cells"},
-                         {"totals", document.dump()}};
-        writeImage(job.output, file);
+                         {"totals", jsonText(document, -1)}};
+        writeOutput(result, [&] { writeImage(job.output, file); });
     }
-    JobResult result;
-    result.json = document.dump(1);
+    result.json = jsonText(document);
     result.text = fmt::format("{}, {} in {}, {} cells, per unit incident flux\n", geometry, setup.object.name,
                               setup.subject.name, body.cellCount()) +
                   textOf(setup, channels);

@@ -82,9 +82,10 @@ JobResult radianceOfBody(const Job& job, const BodySetup& setup, const Body& bod
                  {"material", subjectJson(setup.subject)},
                  {"radiance", {setup.view.width, setup.view.height}},
                  {"volume_mm3", body.volume()}};
-    SavedWalks saved(Options(job), job, std::move(problem), Rgb::channels);
+    SavedWalks saved(Options(job), job, std::move(problem), Rgb::channels, observer);
     const RadianceChannels channels = walkRadianceChannels(body, setup, saved, observer);
-    saved.save();
+    JobResult result;
+    saved.save(result);
     const bool interrupted = std::ranges::any_of(channels, [](const auto& c) { return c && c->interrupted; });
     Json document = documentJson("searchlight-reference/1", job);
     document["geometry"] = geometry;
@@ -121,11 +122,10 @@ JobResult radianceOfBody(const Job& job, const BodySetup& setup, const Body& bod
                          {"material", setup.subject.id},
                          {"technique", "radiance reference"},
                          {"quantity", "radiance of light that has crossed the body, without what its surface mirrors"},
-                         {"totals", document.dump()}};
-        writeImage(job.output, file);
+                         {"totals", jsonText(document, -1)}};
+        writeOutput(result, [&] { writeImage(job.output, file); });
     }
-    JobResult result;
-    result.json = document.dump(1);
+    result.json = jsonText(document);
     result.text =
         fmt::format("{}, {} in {}, radiance from the camera\n", geometry, setup.object.name, setup.subject.name);
     for (std::size_t c = 0; c < channels.size(); ++c) {

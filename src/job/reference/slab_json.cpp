@@ -32,12 +32,22 @@ Json layersJson(const SlabProblem& problem, const SlabResult& result) {
     return layers;
 }
 
-std::string line(const std::string& what, const Estimate& e) {
-    return fmt::format("{:<26} {:.6f} +- {:.6f}\n", what, e.mean, e.standard_error);
-}
-
-std::string exactLine(const std::string& what, const Estimate& e) {
-    return fmt::format("{:<26} {:.9f} +- {:.0e}\n", what, e.mean, e.standard_error);
+// Totals of a walk; of a solution with more digits, and without what walks alone know.
+std::string totalsText(const SlabProblem& problem, const SlabResult& result, bool exact) {
+    std::string text = fmt::format("{:<26} {:.{}f}\n", "specular reflectance", result.specular, exact ? 9 : 6);
+    const auto line = [&](const std::string& what, const Estimate& e) {
+        text += exact ? fmt::format("{:<26} {:.9f} +- {:.0e}\n", what, e.mean, e.standard_error)
+                      : fmt::format("{:<26} {:.6f} +- {:.6f}\n", what, e.mean, e.standard_error);
+    };
+    line("diffuse reflectance", result.R);
+    if (!exact) line("  scattered once", result.R_single);
+    if (result.R_unscattered.mean > 0) line("unscattered reflectance", result.R_unscattered);
+    line("diffuse transmittance", result.T);
+    line("unscattered transmittance", result.T_unscattered);
+    line("absorbed", result.A);
+    for (std::size_t i = 0; i < problem.layers.size() && problem.layers.size() > 1; ++i)
+        line(fmt::format("  in layer {}", i + 1), result.A_layer[i]);
+    return text;
 }
 
 // What a walk and a solution have in common; before the profiles.
@@ -98,15 +108,7 @@ Json slabJson(const SlabProblem& problem, const SlabOptions& options, const Slab
 }
 
 std::string slabText(const SlabProblem& problem, const SlabResult& result) {
-    std::string text = fmt::format("{:<26} {:.6f}\n", "specular reflectance", result.specular);
-    text += line("diffuse reflectance", result.R);
-    text += line("  scattered once", result.R_single);
-    if (result.R_unscattered.mean > 0) text += line("unscattered reflectance", result.R_unscattered);
-    text += line("diffuse transmittance", result.T);
-    text += line("unscattered transmittance", result.T_unscattered);
-    text += line("absorbed", result.A);
-    for (std::size_t i = 0; i < problem.layers.size() && problem.layers.size() > 1; ++i)
-        text += line(fmt::format("  in layer {}", i + 1), result.A_layer[i]);
+    std::string text = totalsText(problem, result, false);
     if (result.walks > 0)
         text += fmt::format("{:.3g} walks/s on {}, {:.3g} s\n", static_cast<double>(result.walks) / result.seconds,
                             result.instruction_set.starts_with("GL ")
@@ -118,25 +120,23 @@ std::string slabText(const SlabProblem& problem, const SlabResult& result) {
 
 Json exactSlabJson(const SlabProblem& problem, const SlabOptions& options, const SlabResult& result) {
     Json json = totalsJson(problem, result);
-    json["edges_mm"] = options.edges_mm;
-    json["R_r"] = seriesJson(result.R_r, "1/mm^2");
-    json["T_r"] = seriesJson(result.T_r, "1/mm^2");
+    if (!result.R_r.mean.empty()) {
+        json["edges_mm"] = options.edges_mm;
+        json["R_r"] = seriesJson(result.R_r, "1/mm^2");
+        json["T_r"] = seriesJson(result.T_r, "1/mm^2");
+    }
+    json["angles"] = options.angles;
+    json["R_a"] = seriesJson(result.R_a, "1/sr");
+    json["T_a"] = seriesJson(result.T_a, "1/sr");
     json["seconds"] = result.seconds;
     json["threads"] = result.threads;
     return json;
 }
 
 std::string exactSlabText(const SlabProblem& problem, const SlabResult& result) {
-    std::string text = fmt::format("{:<26} {:.9f}\n", "specular reflectance", result.specular);
-    text += exactLine("diffuse reflectance", result.R);
-    if (result.R_unscattered.mean > 0) text += exactLine("unscattered reflectance", result.R_unscattered);
-    text += exactLine("diffuse transmittance", result.T);
-    text += exactLine("unscattered transmittance", result.T_unscattered);
-    text += exactLine("absorbed", result.A);
-    for (std::size_t i = 0; i < problem.layers.size() && problem.layers.size() > 1; ++i)
-        text += exactLine(fmt::format("  in layer {}", i + 1), result.A_layer[i]);
-    return text +
-           fmt::format("{:.3g} s; +- estimates the numerical error; the profiles are in --json\n", result.seconds);
+    return totalsText(problem, result, true) +
+           fmt::format("{:.3g} s; +- estimates the numerical error; profiles and angles are in --json\n",
+                       result.seconds);
 }
 
 }  // namespace searchlight

@@ -14,7 +14,7 @@ Json slabJson(const SlabProblem& problem, const SlabOptions& options, const Slab
 /// The totals as lines for people.
 std::string slabText(const SlabProblem& problem, const SlabResult& result);
 
-/// The same of a slab that was solved: those numbers that solveSlab() gives.
+/// The same of a slab that was solved: those numbers that solveSlab() or solveSlabTotals() gives.
 Json exactSlabJson(const SlabProblem& problem, const SlabOptions& options, const SlabResult& result);
 std::string exactSlabText(const SlabProblem& problem, const SlabResult& result);
 

@@ -75,7 +75,7 @@ JobResult renderTurntable(const Job& job, Engine& engine, Observer& observer) {
         progress.finish();
     }
     result.text += fmt::format("{} frames: {} to {}\n", frames, framePath(job.output, 1), picture.output);
-    result.json = document.dump(1);
+    result.json = jsonText(document);
     return result;
 }
 

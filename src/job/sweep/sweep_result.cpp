@@ -151,7 +151,8 @@ fs::path cellPath(const fs::path& folder, const SweepCell& cell, const char* end
 bool isDone(const fs::path& folder, const SweepCell& cell) {
     const fs::path numbers = cellPath(folder, cell, ".json");
     // The numbers are written after the picture.
-    if (!fs::exists(numbers) || !fs::exists(cellPath(folder, cell, ".exr"))) return false;
+    if (std::error_code error; !fs::exists(numbers, error) || !fs::exists(cellPath(folder, cell, ".exr"), error))
+        return false;
     const Json document = Json::parse(readFile(numbers), nullptr, false);
     if (!document.is_object() || !document.contains("job") || !document["job"].is_object()) return false;
     return document.value("version", Json()) == Json(version()) &&
@@ -203,7 +204,7 @@ std::vector<fs::path> writeSummary(const Sweep& sweep, const fs::path& folder, c
     const std::vector<fs::path> paths{sheet_path, folder / "summary.csv", folder / "summary.json"};
     drawSheet(sheet, paths[0]);
     writeFile(paths[1], csvOf(sweep, summary));
-    writeFile(paths[2], summary.dump(1) + "\n");
+    writeFile(paths[2], jsonText(summary) + "\n");
     return paths;
 }
 

@@ -6,10 +6,12 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "transport/exact/ordinate_slab.h"
 #include "transport/exact/ordinates.h"
 #include "transport/walk/fresnel.h"
 
@@ -51,7 +53,61 @@ std::vector<HankelSolution::Single> singleNodes(const OrdinateMedium& medium, do
     return nodes;
 }
 
+// What the half-space's own solver does not take may be a slab of one layer.
+SlabProblem slabOf(const HalfSpaceProblem& problem) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    return {
+        1, 1, {{problem.eta, problem.sigma_a, problem.sigma_s, problem.g, infinity}}, problem.angle_deg, problem.beam};
+}
+
+Estimate operator-(const Estimate& a, const Estimate& b) {
+    return {a.mean - b.mean, a.standard_error + b.standard_error};
+}
+
+HalfSpaceResult solveAsSlab(const HalfSpaceProblem& problem, const std::vector<double>& edges_mm, int threads,
+                            Observer& observer) {
+    const SlabProblem slab = slabOf(problem);
+    SlabOptions options;
+    options.edges_mm = edges_mm;
+    options.threads = threads;
+    const SlabResult all = solveSlab(slab, options, observer);
+    HankelSolution once;
+    once.sigma_t = problem.sigma_a + problem.sigma_s;
+    once.single = singleNodes({problem.sigma_s / once.sigma_t, problem.g, problem.eta}, 1 - all.specular);
+    once.single_error = 1e-9;
+    HalfSpaceResult result = tallyExact(ExactHalfSpace(std::move(once)), edges_mm);
+    const HalfSpaceTally& single = result.single;
+    result.all.total = all.R;
+    result.multiple.total = all.R - single.total;
+    result.all.Rd = all.R_r.mean;
+    result.all.standard_error = all.R_r.standard_error;
+    double within = 0;
+    for (std::size_t i = 0; i < all.R_r.mean.size(); ++i) {
+        const Estimate more =
+            Estimate{all.R_r.mean[i], all.R_r.standard_error[i]} - Estimate{single.Rd[i], single.standard_error[i]};
+        result.multiple.Rd[i] = more.mean;
+        result.multiple.standard_error[i] = more.standard_error;
+        within += all.R_r.mean[i] * std::numbers::pi * (edges_mm[i + 1] * edges_mm[i + 1] - edges_mm[i] * edges_mm[i]);
+    }
+    result.all.beyond = {all.R.mean - within};
+    result.multiple.beyond = {result.all.beyond[0] - single.beyond[0]};
+    result.all.mean_r2_mm2 = slabMeanR2(slab);
+    const auto moment = [](const HalfSpaceTally& of) {
+        return Estimate{of.mean_r2_mm2.mean * of.total.mean, of.mean_r2_mm2.standard_error * of.total.mean};
+    };
+    const Estimate more = moment(result.all) - moment(single);
+    const double flux = result.multiple.total.mean;
+    result.multiple.mean_r2_mm2 = {more.mean / flux, more.standard_error / flux};
+    return result;
+}
+
 }  // namespace
+
+std::string whyNotExactHalfSpace(const HalfSpaceProblem& problem) {
+    const std::string reason = whyNotOrdinates(problem);
+    if (reason.empty() || whyNotExact(problem).empty()) return {};
+    return problem.sigma_s > 0 ? whyNotOrdinateSlab(slabOf(problem)) : reason;
+}
 
 std::string whyNotOrdinates(const HalfSpaceProblem& problem) {
     const double sigma_t = problem.sigma_a + problem.sigma_s;
@@ -119,14 +175,17 @@ ExactHalfSpace solveOrdinates(const HalfSpaceProblem& problem, int threads, Obse
 HalfSpaceResult solveAnyHalfSpace(const HalfSpaceProblem& problem, const std::vector<double>& edges_mm, int threads,
                                   Observer& observer) {
     if (whyNotExact(problem).empty()) return solveHalfSpace(problem, edges_mm);
+    checkHalfSpaceProblem(problem);
+    const bool as_slab = !whyNotOrdinates(problem).empty() && whyNotExactHalfSpace(problem).empty();
     const double smallest = kSmallestRadius / (problem.sigma_a + (1 - problem.g) * problem.sigma_s);
     for (const double edge : edges_mm)
-        if (edge > 0 && edge < smallest * (1 - 1e-9))
+        if (!as_slab && edge > 0 && edge < smallest * (1 - 1e-9))
             throw inputError(
                 fmt::format("the exact profile is asked for at {} mm", edge),
                 fmt::format("edges of 0, or of {:.4g} mm (0.02 reduced mean free paths) and more", smallest));
     const auto start = std::chrono::steady_clock::now();
-    HalfSpaceResult result = tallyExact(solveOrdinates(problem, threads, observer), edges_mm);
+    HalfSpaceResult result = as_slab ? solveAsSlab(problem, edges_mm, threads, observer)
+                                     : tallyExact(solveOrdinates(problem, threads, observer), edges_mm);
     result.specular = enteringBeam(problem.eta, 0).specular;
     result.threads = threads > 0 ? threads : hardwareThreads();
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

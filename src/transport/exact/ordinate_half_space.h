@@ -17,8 +17,12 @@ std::string whyNotOrdinates(const HalfSpaceProblem& problem);
 /// the observer cancels. threads: 0: all; they do not change the result.
 ExactHalfSpace solveOrdinates(const HalfSpaceProblem& problem, int threads, Observer& observer);
 
-/// The tallies of walkHalfSpace without a walk: solveHalfSpace() where there is a closed form, else solveOrdinates().
-/// Edges above 0 are at least the smallest radius. Throws as these do, and for edges.
+/// Why solveAnyHalfSpace() does not take a problem; empty where it does.
+std::string whyNotExactHalfSpace(const HalfSpaceProblem& problem);
+
+/// The tallies of walkHalfSpace without a walk: solveHalfSpace() where there is a closed form, solveOrdinates() where
+/// this knows the problem, else solveSlab() of one infinite layer. Edges above 0 are at least the smallest radius.
+/// Throws as these do, and for edges.
 HalfSpaceResult solveAnyHalfSpace(const HalfSpaceProblem& problem, const std::vector<double>& edges_mm, int threads,
                                   Observer& observer);
 

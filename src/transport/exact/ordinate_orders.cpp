@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "transport/walk/decay.h"
+
 namespace searchlight {
 
 namespace {
@@ -12,12 +14,6 @@ using Complex = std::complex<double>;
 
 // Beams weaker than this do not matter: discrete directions have their second order to a hundredth.
 constexpr double kWeakBeam = 1e-4;
-
-// Integral of exp(-rate z) from 0 to h; wave = exp(-rate h), 0 where h is infinite.
-Complex decayed(Complex rate, Complex wave, double h) {
-    if (std::abs(rate) * h < 1e-4) return h * (1.0 - rate * h * (0.5 - rate * h / 6.0));
-    return (1.0 - wave) / rate;
-}
 
 // Integral of exp(-a (h - z) - b z) from 0 to h, given exp(-a h) and exp(-b h).
 Complex met(Complex a, Complex wave_a, Complex b, Complex wave_b, double h) {
@@ -85,6 +81,8 @@ StackFlux secondOrder(const OrdinateStack::Layer& layer, const LayerRays& rays, 
         apart[j] = 1.0 / (rays.Q[j] - beta);
         joint[j] = 1.0 / (rays.Q[j] + beta);
     }
+    // Then nothing comes from below, and what is left of the terms is simple.
+    const bool infinite = std::isinf(h);
     const bool rises = layer.beam_up > kWeakBeam, falls = layer.beam_down > 0;
     StackFlux flux;
     for (std::size_t i = 0; i < n; ++i) {
@@ -106,6 +104,11 @@ StackFlux secondOrder(const OrdinateStack::Layer& layer, const LayerRays& rays, 
             }
             const Complex Qj = rays.Q[j];
             const double weight = rays.set.weight[j] / rays.set.mu[j];
+            if (infinite) {
+                near[0] += weight * (other * (with[j] * back[i] + against[j] * rays.F_up[j] * back[j]) / (Qi + Qj) +
+                                     same * against[j] * back[i] * back[j]);
+                continue;
+            }
             const Complex sum = decayed(Qi + Qj, wave[i] * wave[j], h), cross = met(Qi, wave[i], Qj, wave[j], h);
             // Light on its way j with the beam is (exp(-beta z) - exp(-Qj z)) / (Qj - beta), against it
             // (exp(-beta z) - exp(-(beta + Qj) h + Qj z)) / (Qj + beta).

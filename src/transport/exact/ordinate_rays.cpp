@@ -18,10 +18,12 @@ constexpr double kSameIndex = 1e-9;
 // A range of cosines that has its full number of points.
 constexpr double kWidePanel = 0.6;
 
-// Those below the highest of the layers, where total reflection begins, and that one; ascending.
+// Those below the highest of the layers that scatter, where total reflection begins, and that one; ascending. No light
+// gets into the directions beyond.
 std::vector<double> indices(const OrdinateStack& stack) {
     double highest = 0;
-    for (const OrdinateStack::Layer& layer : stack.layers) highest = std::max(highest, layer.n);
+    for (const OrdinateStack::Layer& layer : stack.layers)
+        if (layer.sigma_s > 0) highest = std::max(highest, layer.n);
     std::vector<double> all{stack.n_above, stack.n_below}, kept;
     for (const OrdinateStack::Layer& layer : stack.layers) all.push_back(layer.n);
     std::sort(all.begin(), all.end());
@@ -67,7 +69,7 @@ void add(LayerRays& rays, const OrdinateStack& stack, std::size_t at, double xi,
     const OrdinateStack::Layer& layer = stack.layers[at];
     double reach = 0;
     for (const OrdinateStack::Layer& other : stack.layers)
-        if (xi < other.n) reach = std::max(reach, xi / (other.n * other.sigma_t));
+        if (xi < other.n && other.sigma_t > 0) reach = std::max(reach, xi / (other.n * other.sigma_t));
     const double width = 1 / std::hypot(1, std::abs(rate) * reach), end = std::asinh(0.5 * pi / width);
     const double sine = xi / layer.n;
     double all = 0;  // of a full circle, but for the quadrature
@@ -99,19 +101,30 @@ std::vector<LayerRays> stackRays(const OrdinateStack& stack, const StackCount& c
         if (panel > 0) {
             // Fewer where the panel is narrow.
             const double part = (cosineIn(n.back(), low) - cosineIn(n.back(), high)) / kWidePanel;
-            cosines = std::max(2, static_cast<int>(std::ceil(count.trapped * std::min(1.0, part + 0.1))));
+            cosines = std::max(count.narrow, static_cast<int>(std::ceil(count.trapped * std::min(1.0, part + 0.1))));
         }
         const GaussRule rule = gaussRule(cosines);
         // In t = sqrt(high^2 - xi^2), all cosines and Fresnel terms are smooth.
         const double range = std::sqrt((high - low) * (high + low));
-        for (std::size_t i = rule.x.size(); i-- > 0;) {
-            const double t = range * rule.x[i], xi = std::sqrt((high - t) * (high + t));
-            for (std::size_t at = 0; at < layers.size(); ++at) {
-                const double index = stack.layers[at].n;
-                if (index < high - kSameIndex) continue;
-                const double mu = std::sqrt(std::max(0.0, (index - high) * (index + high)) + t * t) / index;
-                layers[at].set.azimuths = azimuths.x.size();
-                add(layers[at], stack, at, xi, mu, range * rule.weight[i] * t / (index * index * mu), azimuths, rate);
+        for (std::size_t at = 0; at < layers.size(); ++at) {
+            const double index = stack.layers[at].n;
+            if (index < high - kSameIndex) continue;
+            const double least = std::max(0.0, (index - high) * (index + high));
+            const auto cosine = [&](double t) { return std::sqrt(least + t * t) / index; };
+            const auto weight = [&](std::size_t i) {
+                const double t = range * rule.x[i];
+                return range * rule.weight[i] * t / (index * index * cosine(t));
+            };
+            // Where the index is just above the panel, the cosine is not that smooth, and the weights lack a little of
+            // the panel's range.
+            double sum = 0;
+            for (std::size_t i = 0; i < rule.x.size(); ++i) sum += weight(i);
+            const double scale = (cosine(range) - cosine(0)) / sum;
+            layers[at].set.azimuths = azimuths.x.size();
+            layers[at].panels.push_back({low, high, layers[at].size(), rule.x.size() * azimuths.x.size()});
+            for (std::size_t i = rule.x.size(); i-- > 0;) {
+                const double t = range * rule.x[i], xi = std::sqrt((high - t) * (high + t));
+                add(layers[at], stack, at, xi, cosine(t), scale * weight(i), azimuths, rate);
             }
         }
     }

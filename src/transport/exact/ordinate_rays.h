@@ -8,7 +8,7 @@
 
 namespace searchlight {
 
-/// Plane layers under a normal beam as discrete directions see them: peaks are set apart, extinction is less by them.
+/// Plane layers under a beam as discrete directions see them: peaks are set apart, extinction is less by them.
 /// Lengths are in mm.
 struct OrdinateStack {
     struct Layer {
@@ -17,6 +17,7 @@ struct OrdinateStack {
         double thickness = 1;             ///< infinity in the last layer
         SmoothPhase phase = {};
         double beam_down = 0, beam_up = 0;  ///< flux of the unscattered beam that enters at the top, at the bottom
+        double beam_cosine = 1;  ///< its direction; other than 1 at k = 0 alone, where azimuths do not matter
     };
     double n_above = 1, n_below = 1;
     std::vector<Layer> layers;
@@ -27,11 +28,18 @@ struct StackCount {
     int escaping = 8;  ///< cosines that no interface reflects totally
     int alone = 4;     ///< more of them where there is no total reflection
     int trapped = 5;   ///< cosines between the critical angles of one interface and the next
+    int narrow = 3;    ///< the least of these, however close two indices are
     int azimuths = 12;
     // For the second order alone.
     int second_panel = 24;  ///< cosines of each half of those that no interface reflects totally
     int second_trapped = 10;
     int second_azimuths = 20;
+};
+
+/// A range of n sin(angle) within which everything is smooth in t = sqrt(high^2 - (n sin)^2), and its directions.
+struct RayPanel {
+    double low = 0, high = 1;
+    std::size_t first = 0, count = 0;
 };
 
 /// Directions of one hemisphere of one layer at a transverse rate; all lists have the same length.
@@ -42,6 +50,8 @@ struct LayerRays {
     std::vector<std::complex<double>> Q;   ///< decay with depth, 1/mm
     std::vector<std::complex<double>> up;  ///< what comes through from the top of the layer to above the slab, straight
     std::vector<std::complex<double>> down;  ///< from its bottom to below the slab
+
+    std::vector<RayPanel> panels;  ///< in ascending order; of stackRays() alone
 
     std::size_t size() const { return set.mu.size(); }
 };

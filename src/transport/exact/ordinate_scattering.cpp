@@ -81,7 +81,8 @@ SmoothPhase smoothPhase(double g, int last) {
     return phase;
 }
 
-OrdinateScattering ordinateScattering(std::span<const double> moments_of_l, const OrdinateSet& directions) {
+OrdinateScattering ordinateScattering(std::span<const double> moments_of_l, const OrdinateSet& directions,
+                                      double beam_cosine) {
     const std::size_t size = directions.mu.size();
     const auto n = static_cast<Eigen::Index>(size);
     const int last = static_cast<int>(moments_of_l.size()) - 1;
@@ -124,8 +125,9 @@ OrdinateScattering ordinateScattering(std::span<const double> moments_of_l, cons
         for (Eigen::Index h = 0; h < count; ++h) {
             const auto [l, m] = harmonics[static_cast<std::size_t>(h)];
             if (m > 0) continue;
+            const double beam = legendre(0, l, beam_cosine);
             for (std::size_t i = 0; i < size; ++i) {
-                const double part = moments[h] * std::sqrt((2 * l + 1) / (4 * pi)) *
+                const double part = moments[h] * beam * std::sqrt((2 * l + 1) / (4 * pi)) *
                                     basis(static_cast<Eigen::Index>(i), h) / std::sqrt(2 * directions.weight[i]);
                 scattering.down[i] += part;
                 scattering.up[i] += parity == 0 ? part : -part;

@@ -39,14 +39,15 @@ struct OrdinateSet {
     std::vector<double> phi;         ///< from the plane, 0 to pi
 };
 
-/// The phase function between directions, and from a normal beam into them, 1/sr.
+/// The phase function between directions, and from a beam into them, 1/sr.
 struct OrdinateScattering {
     std::vector<double> same, other;  ///< n x n: within a hemisphere, into the other one
-    std::vector<double> down, up;     ///< n: from a beam that goes down
+    std::vector<double> down, up;     ///< n: from a beam that goes down, means over its azimuths
 };
 
 /// The harmonics are made orthonormal on the directions, lowest first: scattering then has exactly the eigenvalues
 /// `moments`, so that no energy is lost and the diffusion length is right however few the directions.
-OrdinateScattering ordinateScattering(std::span<const double> moments, const OrdinateSet& directions);
+OrdinateScattering ordinateScattering(std::span<const double> moments, const OrdinateSet& directions,
+                                      double beam_cosine = 1);
 
 }  // namespace searchlight

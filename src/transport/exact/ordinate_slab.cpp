@@ -10,15 +10,16 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "base/error.h"
 #include "base/parallel.h"
 #include "transport/exact/exact_half_space.h"
+#include "transport/exact/ordinate_problem.h"
 #include "transport/exact/ordinate_stack.h"
+#include "transport/exact/ordinate_totals.h"
 #include "transport/exact/ordinates.h"
-#include "transport/slab/slab_single.h"
-#include "transport/walk/beam.h"
 
 namespace searchlight {
 
@@ -27,16 +28,18 @@ namespace {
 using Complex = std::complex<double>;
 using std::numbers::pi;
 
-constexpr double kLargestG = 0.9, kLargestRatio = 2, kLargestAlbedo = 0.99999;
 // Reduced mean free paths of the layer where they are shortest.
 constexpr double kSmallestRadius = 0.05, kLargestRadius = 1000, kReach = 50;
 constexpr double kStep = 0.2;  // of u
-constexpr StackCount kFine{8, 4, 5, 12, 24, 10, 20}, kCoarse{6, 3, 4, 10, 16, 8, 16};
+constexpr StackCount kFine{8, 4, 5, 3, 12, 24, 10, 20}, kCoarse{6, 3, 4, 2, 10, 16, 8, 16};
 // Of the line, as parts of the slowest lateral rate and of the least extinction: nearer to these, light that runs
 // along the layers decays little and oscillates, which few cosines follow.
 constexpr double kShift = 0.7, kLargestShift = 0.3;
-constexpr int kTotalCosines = 28;
-constexpr double kSafety = 2, kRounding = 1e-9;
+// How far light may run along a clear layer, in reduced mean free paths as above: beyond, few directions do not tell
+// where it comes out again.
+constexpr double kFarthest = 3;
+constexpr double kSafety = 2;
+constexpr double kCurvature = 0.03;  // of the slowest rate: 1e-5 of <r^2> are left
 // Relative; of a transform that ends where directions are too few, so much is left in doubt of its end.
 constexpr double kAgreed = 0.2;
 
@@ -49,58 +52,18 @@ double smallestRadius(const SlabProblem& problem) {
     return kSmallestRadius / largest;
 }
 
-// The stack, smoothed as far as so many cosines follow.
-OrdinateStack stackOf(const SlabProblem& problem, const StackCount& count) {
-    OrdinateStack stack{problem.n_above, problem.n_below, {}};
-    for (const SlabLayer& layer : problem.layers)
-        stack.layers.push_back({.n = layer.n, .sigma_t = 1, .thickness = layer.thickness_mm});
-    StackCount cosines = count;
-    cosines.azimuths = 1;
-    const std::vector<LayerRays> rays = stackRays(stack, cosines, 0);
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        const SlabLayer& layer = problem.layers[i];
-        OrdinateStack::Layer& smooth = stack.layers[i];
-        smooth.phase = smoothPhase(layer.g, static_cast<int>(2 * rays[i].size()) - 2);
-        smooth.sigma_s = layer.sigma_s * (1 - smooth.phase.peak);
-        smooth.sigma_t = layer.sigma_a + smooth.sigma_s;
-    }
-    return stack;
-}
-
-// The same as slabSingle() sees it.
-SlabWalk straightOf(const SlabProblem& problem, const OrdinateStack& stack) {
-    SlabWalk walk;
-    for (std::size_t i = 0; i < stack.layers.size(); ++i) {
-        const SlabLayer& layer = problem.layers[i];
-        const double above = i == 0 ? problem.n_above : problem.layers[i - 1].n;
-        const double beyond = i + 1 == stack.layers.size() ? problem.n_below : problem.layers[i + 1].n;
-        const double sigma_t = stack.layers[i].sigma_t;
-        // The phase function is put back as it is, with its peak, [Nakajima1988].
-        walk.layers.push_back({.mfp_mm = 1 / sigma_t,
-                               .absorbed = 1 - layer.sigma_s / sigma_t,
-                               .g = layer.g,
-                               .thickness_mm = layer.thickness_mm,
-                               .eta_up = layer.n / above,
-                               .eta_down = std::isinf(layer.thickness_mm) ? 1 : layer.n / beyond});
-    }
-    return walk;
-}
-
-SlabUnscattered addBeam(OrdinateStack& stack, const SlabWalk& walk) {
-    SlabUnscattered beam = slabUnscattered(walk);
-    for (std::size_t i = 0; i < stack.layers.size(); ++i) {
-        stack.layers[i].beam_down = beam.down[i];
-        stack.layers[i].beam_up = beam.up[i];
-    }
-    return beam;
-}
-
 // A lateral rate below the slowest, as close as some 20 %. Up to the slowest, the transform of what leaves is positive
 // and grows.
 double slowestRate(const SlabProblem& problem, const OrdinateStack& stack) {
     double least = 1e300, fastest = 1e300, depth = 0;
+    bool clear = false;
     for (std::size_t i = 0; i < stack.layers.size(); ++i) {
         const SlabLayer& layer = problem.layers[i];
+        if (layer.clear()) {
+            clear = true;
+            depth += layer.thickness_mm;
+            continue;
+        }
         const double sigma_t = layer.sigma_a + layer.sigma_s;
         fastest = std::min(fastest, stack.layers[i].sigma_t);
         // An infinite layer, which absorbs, is as deep as light gets there.
@@ -110,6 +73,8 @@ double slowestRate(const SlabProblem& problem, const OrdinateStack& stack) {
     }
     // Without absorption pi over the depth between the extrapolated surfaces: this is a third of it.
     double rate = std::max(least, 1 / depth), before = 0;
+    // Along clear layers there are no discrete directions that such light takes: a scale is all that is needed.
+    if (clear) return std::min(rate, 0.9 * fastest);
     const StackCount count{.escaping = 4, .alone = 2, .trapped = 3, .azimuths = 6};
     for (double next = rate; next < 0.9 * fastest; next *= 1.2) {
         const double value = stackExitance(stack, count, next).R.real();
@@ -118,6 +83,28 @@ double slowestRate(const SlabProblem& problem, const OrdinateStack& stack) {
         rate = next;
     }
     return std::min(rate, 0.9 * fastest);
+}
+
+// The steepest light in a clear layer, as a tangent: infinite unless its index is above those of layers that scatter.
+double steepest(const SlabLayer& clear, const SlabProblem& problem) {
+    double highest = 0;
+    for (const SlabLayer& layer : problem.layers)
+        if (layer.sigma_s > 0) highest = std::max(highest, layer.n);
+    if (clear.n <= highest) return std::numeric_limits<double>::infinity();
+    return highest / std::sqrt((clear.n - highest) * (clear.n + highest));
+}
+
+// How far to the right the line may lie: layers make up for what grows along the wave, and light does not go far in
+// clear ones.
+double largestShift(const SlabProblem& problem, const OrdinateStack& stack) {
+    double shift = 1e300;
+    for (std::size_t i = 0; i < problem.layers.size(); ++i) {
+        const SlabLayer& layer = problem.layers[i];
+        const double reach =
+            layer.clear() ? layer.thickness_mm * steepest(layer, problem) : 1 / stack.layers[i].sigma_t;
+        shift = std::min(shift, kLargestShift / reach);
+    }
+    return shift;
 }
 
 // Both transforms, sampled along the line.
@@ -243,83 +230,38 @@ SlabSeries seriesOf(const Side& side, const std::vector<double>& edges, double s
 }  // namespace
 
 std::string whyNotOrdinateSlab(const SlabProblem& problem) {
+    if (const std::string reason = whyNotOrdinateTotals(problem); !reason.empty()) return reason;
     if (problem.angle_deg != 0) return fmt::format("the beam is oblique, {} deg", problem.angle_deg);
     if (problem.beam.kind != BeamShape::pencil) return "the beam is wide";
-    double n_min = std::min(problem.n_above, problem.n_below), n_max = std::max(problem.n_above, problem.n_below);
-    bool scatters = false;
-    for (std::size_t i = 0; i < problem.layers.size(); ++i) {
-        const SlabLayer& layer = problem.layers[i];
-        const std::string name = fmt::format("layer {}", i + 1);
-        n_min = std::min(n_min, layer.n);
-        n_max = std::max(n_max, layer.n);
-        scatters |= layer.sigma_s > 0;
-        if (layer.phase) return name + " has a tabulated phase function";
-        if (layer.clear()) return name + " is clear";
-        if (layer.thickness_mm == 0) return name + " has no thickness";
-        if (!(std::abs(layer.g) <= kLargestG))
-            return fmt::format("|g| {} of {} is above {}", std::abs(layer.g), name, kLargestG);
-        const double albedo = layer.sigma_s / (layer.sigma_a + layer.sigma_s);
-        if (std::isinf(layer.thickness_mm) && !(albedo <= kLargestAlbedo))
-            return fmt::format("{} is infinite and its albedo {} is above {}", name, albedo, kLargestAlbedo);
-    }
-    if (n_max > kLargestRatio * n_min)
-        return fmt::format("the refractive indices {} and {} differ by more than a factor of {}", n_min, n_max,
-                           kLargestRatio);
-    if (!scatters) return "nothing scatters";
+    const auto scatters = [](const SlabLayer& layer) { return layer.sigma_s > 0; };
+    if (std::ranges::none_of(problem.layers, scatters)) return "nothing scatters";
+    for (std::size_t i = 0; i < problem.layers.size(); ++i)
+        if (const SlabLayer& layer = problem.layers[i]; layer.clear()) {
+            const double reach = layer.thickness_mm * steepest(layer, problem);
+            if (!(reach <= kFarthest * smallestRadius(problem) / kSmallestRadius))
+                return std::isinf(reach)
+                           ? fmt::format(
+                                 "layer {} is clear and of no higher index than what scatters: light runs along it",
+                                 i + 1)
+                           : fmt::format("light runs up to {:.3g} mm along layer {}, which is clear", reach, i + 1);
+        }
     return {};
 }
 
 std::string ordinateSlabsCovered() {
     return fmt::format(
-        "--exact takes a normal pencil beam on layers that scatter or absorb, |g| up to {}, refractive "
-        "indices within a factor of {}, an infinite layer of albedo up to {}; without it the slab is walked",
-        kLargestG, kLargestRatio, kLargestAlbedo);
-}
-
-SlabResult solveSlabTotals(const SlabProblem& problem) {
-    slabLayout(problem, {.edges_mm = {0, 1}, .depth_mm = 1});
-    if (const std::string reason = whyNotOrdinateSlab(problem); !reason.empty())
-        throw inputError("no exact solution: " + reason, ordinateSlabsCovered());
-    // At k = 0 nothing varies with the azimuth, so that directions are few whatever their cosines are.
-    struct Level {
-        StackTotals totals;
-        SlabUnscattered beam;
-    };
-    const auto at = [&](int cosines) {
-        OrdinateStack stack = stackOf(problem, {.escaping = cosines, .alone = 0, .trapped = cosines});
-        const SlabUnscattered beam = addBeam(stack, straightOf(problem, stack));
-        return Level{stackTotals(stack, cosines), beam};
-    };
-    const Level fine = at(kTotalCosines), coarse = at(kTotalCosines - 4);
-    // What is scattered into the peaks has gone on with the beam there.
-    OrdinateStack whole = stackOf(problem, kCoarse);
-    for (std::size_t i = 0; i < whole.layers.size(); ++i)
-        whole.layers[i].sigma_t = problem.layers[i].sigma_a + problem.layers[i].sigma_s;
-    const SlabUnscattered beam = slabUnscattered(straightOf(problem, whole));
-
-    SlabResult result;
-    result.specular = enteringBeam(problem.layers.front().n / problem.n_above, 0).specular;
-    const double entered = 1 - result.specular;
-    const auto estimate = [&](double value, double other) {
-        return Estimate{entered * value, entered * kSafety * std::abs(value - other) + kRounding};
-    };
-    result.R_unscattered = {entered * beam.R};
-    result.T_unscattered = {entered * beam.T};
-    result.R = estimate(fine.totals.R + fine.beam.R - beam.R, coarse.totals.R + coarse.beam.R - beam.R);
-    result.T = estimate(fine.totals.T + fine.beam.T - beam.T, coarse.totals.T + coarse.beam.T - beam.T);
-    for (std::size_t i = 0; i < problem.layers.size(); ++i) {
-        result.A_layer.push_back(estimate(fine.totals.absorbed[i], coarse.totals.absorbed[i]));
-        result.A.mean += result.A_layer.back().mean;
-        result.A.standard_error += result.A_layer.back().standard_error;
-    }
-    return result;
+        "--exact takes Henyey-Greenstein layers, |g| up to {}, refractive indices within a factor of {}, an infinite "
+        "layer of albedo up to {}, and for R(r) and T(r) a normal pencil beam; without it the slab is walked",
+        kOrdinateLargestG, kOrdinateLargestRatio, kOrdinateLargestAlbedo);
 }
 
 SlabResult solveSlab(const SlabProblem& problem, const SlabOptions& options, Observer& observer) {
     SlabOptions tallies = options;
     tallies.depth_mm = 1;
     slabLayout(problem, tallies);
-    SlabResult result = solveSlabTotals(problem);
+    if (const std::string reason = whyNotOrdinateSlab(problem); !reason.empty())
+        throw inputError("no exact profile: " + reason, ordinateSlabsCovered());
+    SlabResult result = solveSlabTotals(problem, options.angles);
     const std::vector<double>& edges = options.edges_mm;
     const double smallest = smallestRadius(problem), largest = smallest / kSmallestRadius * kLargestRadius;
     for (const double edge : edges)
@@ -337,17 +279,16 @@ SlabResult solveSlab(const SlabProblem& problem, const SlabOptions& options, Obs
         Line line;
     };
     Level levels[2] = {{&kFine, {}, {}, {}}, {&kCoarse, {}, {}, {}}};
-    const std::vector<char> all(problem.layers.size(), 1);
+    std::vector<char> scatters;
+    for (const SlabLayer& layer : problem.layers) scatters.push_back(layer.sigma_s > 0);
     for (Level& level : levels) {
-        level.stack = stackOf(problem, *level.count);
-        const SlabWalk walk = straightOf(problem, level.stack);
+        level.stack = ordinateStack(problem, *level.count);
+        const SlabWalk walk = straightWalk(problem, level.stack);
         addBeam(level.stack, walk);
-        level.single = slabSingle(walk, edges, all, 0);
+        level.single = slabSingle(walk, edges, scatters, 0);
     }
     const double slowest = slowestRate(problem, levels[1].stack);
-    double shift = kShift * slowest;
-    for (const OrdinateStack::Layer& layer : levels[0].stack.layers)
-        shift = std::min(shift, kLargestShift * layer.sigma_t);
+    const double shift = std::min(kShift * slowest, largestShift(problem, levels[0].stack));
     const double width = slowest - shift, last = kReach * kSmallestRadius / smallest;
     const auto count = static_cast<std::size_t>(std::asinh(last / width) / kStep) + 2;
     for (Level& level : levels) level.line = {shift, width, std::vector<StackFlux>(count)};
@@ -375,6 +316,21 @@ SlabResult solveSlab(const SlabProblem& problem, const SlabOptions& options, Obs
     result.threads = options.threads > 0 ? options.threads : hardwareThreads();
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return result;
+}
+
+Estimate slabMeanR2(const SlabProblem& problem) {
+    const auto solve = [&](const StackCount& count) {
+        OrdinateStack stack = ordinateStack(problem, count);
+        addBeam(stack, straightWalk(problem, stack));
+        // The transform is R (1 + rate^2 <r^2> / 4 + rate^4 <r^4> / 64 + ...).
+        const double rate = kCurvature * slowestRate(problem, stack), R = stackExitance(stack, count, 0).R.real();
+        const auto curvature = [&](double at) {
+            return 4 * (stackExitance(stack, count, at).R.real() / R - 1) / (at * at);
+        };
+        return (4 * curvature(rate) - curvature(2 * rate)) / 3;
+    };
+    const double fine = solve(kFine);
+    return {fine, kSafety * std::abs(fine - solve(kCoarse))};
 }
 
 }  // namespace searchlight

@@ -8,6 +8,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace searchlight {
 
@@ -21,6 +22,8 @@ using Eigen::Index;
 // Of what passes a layer that is infinite.
 constexpr double kNothing = 1e-12;
 constexpr int kMostDoublings = 80;
+// Of light in clear layers between total reflections: there is none, but 0 is divided by what it leaves.
+constexpr double kNotTrapped = 1 - 1e-13;
 
 // What a layer answers: light that falls on either side, and a beam of unit flux that enters at its top.
 struct Answer {
@@ -50,8 +53,8 @@ Equation equationOf(const OrdinateStack::Layer& layer, const LayerRays& rays, co
         }
         equation.plus(i, i) += rays.Q[to];
         equation.minus(i, i) += rays.Q[to];
-        equation.down[i] = part * per_n2 * scattering.down[to];
-        equation.up[i] = part * per_n2 * scattering.up[to];
+        equation.down[i] = part * per_n2 / layer.beam_cosine * scattering.down[to];
+        equation.up[i] = part * per_n2 / layer.beam_cosine * scattering.up[to];
     }
     return equation;
 }
@@ -101,18 +104,30 @@ Answer thinLayer(const Equation& equation, double beta, double h) {
     return answer;
 }
 
+// Light goes straight.
+Answer straightAnswer(const OrdinateStack::Layer& layer, const LayerRays& rays) {
+    const auto n = static_cast<Index>(rays.size());
+    Answer answer{Matrix::Zero(n, n), Matrix::Zero(n, n), Vector::Zero(n), Vector::Zero(n)};
+    if (std::isinf(layer.thickness)) return answer;
+    for (Index i = 0; i < n; ++i)
+        answer.T(i, i) = kNotTrapped * std::exp(-rays.Q[static_cast<std::size_t>(i)] * layer.thickness);
+    return answer;
+}
+
 Answer layerAnswer(const OrdinateStack::Layer& layer, const LayerRays& rays, const OrdinateScattering& scattering) {
+    if (layer.sigma_s == 0) return straightAnswer(layer, rays);
     const Equation equation = equationOf(layer, rays, scattering);
     const bool infinite = std::isinf(layer.thickness);
-    const double norm = std::max({size(equation.plus), size(equation.minus), layer.sigma_t});
+    const double rate = layer.sigma_t / layer.beam_cosine;
+    const double norm = std::max({size(equation.plus), size(equation.minus), rate});
     const int doublings =
         infinite ? kMostDoublings : std::max(0, static_cast<int>(std::ceil(std::log2(2 * norm * layer.thickness))));
     double h = infinite ? 0.5 / norm : layer.thickness * std::pow(0.5, doublings);
-    Answer answer = thinLayer(equation, layer.sigma_t, h);
+    Answer answer = thinLayer(equation, rate, h);
     const Index n = answer.R.rows();
     const Matrix one = Matrix::Identity(n, n);
     for (int step = 0; step < doublings; ++step) {
-        const double beam = std::exp(-layer.sigma_t * h);
+        const double beam = std::exp(-rate * h);
         const Eigen::PartialPivLU<Matrix> even(one - answer.R), odd(one + answer.R);
         const Vector middle_down = odd.solve(even.solve(answer.down + beam * (answer.R * answer.up)));
         const Vector middle_up = answer.R * middle_down + beam * answer.up;
@@ -219,8 +234,11 @@ Complex flux(const OrdinateStack::Layer& layer, const LayerRays& rays, const Vec
 
 std::vector<OrdinateScattering> scatteringOf(const OrdinateStack& stack, const std::vector<LayerRays>& rays) {
     std::vector<OrdinateScattering> scattering;
-    for (std::size_t i = 0; i < rays.size(); ++i)
-        scattering.push_back(ordinateScattering(stack.layers[i].phase.moments, rays[i].set));
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const OrdinateStack::Layer& layer = stack.layers[i];
+        scattering.push_back(layer.sigma_s > 0 ? ordinateScattering(layer.phase.moments, rays[i].set, layer.beam_cosine)
+                                               : OrdinateScattering{});
+    }
     return scattering;
 }
 
@@ -229,6 +247,55 @@ StackFlux leaving(const OrdinateStack& stack, const std::vector<LayerRays>& rays
     if (!std::isinf(stack.layers.back().thickness))
         sum.T = flux(stack.layers.back(), rays.back(), light.back().bottom_down, &rays.back().F_down);
     return sum;
+}
+
+// Light that leaves a layer in equal parts of 90 degrees outside, per unit flux that entered: per (n sin)^2 it is
+// smooth in the panels' own variable.
+std::vector<double> anglesOf(const LayerRays& rays, const Vector& light, const std::vector<double>& reflectance,
+                             double n, double n_outside, int angles) {
+    std::vector<double> flux(static_cast<std::size_t>(angles));
+    const GaussRule rule = gaussRule(12);
+    for (const RayPanel& panel : rays.panels) {
+        if (panel.low >= n_outside) break;
+        const auto variable = [&](double xi) {
+            return std::sqrt(std::max(0.0, (panel.high - xi) * (panel.high + xi)));
+        };
+        std::vector<double> t, value, weight;
+        for (std::size_t i = panel.first; i < panel.first + panel.count; ++i) {
+            const double mu = rays.set.mu[i];
+            t.push_back(variable(n * std::sqrt((1 - mu) * (1 + mu))));
+            value.push_back((1 - reflectance[i]) * light[static_cast<Index>(i)].real());
+        }
+        // Barycentric interpolation.
+        for (std::size_t i = 0; i < t.size(); ++i) {
+            double product = 1;
+            for (std::size_t k = 0; k < t.size(); ++k)
+                if (k != i) product *= (t[i] - t[k]) * 4 / variable(panel.low);
+            weight.push_back(1 / product);
+        }
+        const auto at = [&](double x) {
+            double above = 0, below = 0;
+            for (std::size_t i = 0; i < t.size(); ++i) {
+                if (x == t[i]) return value[i];
+                const double part = weight[i] / (x - t[i]);
+                above += part * value[i];
+                below += part;
+            }
+            return above / below;
+        };
+        for (std::size_t a = 0; a < flux.size(); ++a) {
+            const double part = 0.5 * std::numbers::pi / angles;
+            const double from = std::max(panel.low, n_outside * std::sin(part * static_cast<double>(a)));
+            const double to = std::min(panel.high, n_outside * std::sin(part * static_cast<double>(a + 1)));
+            if (!(from < to)) continue;
+            const double end = variable(from), begin = variable(to);
+            for (std::size_t k = 0; k < rule.x.size(); ++k) {
+                const double x = begin + (end - begin) * rule.x[k];
+                flux[a] += 2 * std::numbers::pi * (end - begin) * rule.weight[k] * x * at(x);
+            }
+        }
+    }
+    return flux;
 }
 
 }  // namespace
@@ -253,19 +320,29 @@ StackFlux stackTransform(const OrdinateStack& stack, const StackCount& count, Co
     return sum;
 }
 
-StackTotals stackTotals(const OrdinateStack& stack, int cosines) {
-    const StackCount count{.escaping = cosines, .alone = 0, .trapped = cosines, .azimuths = 1};
+StackTotals stackTotals(const OrdinateStack& stack, int cosines, int angles) {
+    const StackCount count{.escaping = cosines, .alone = 0, .trapped = cosines, .narrow = cosines, .azimuths = 1};
     const std::vector<LayerRays> rays = stackRays(stack, count, 0);
     const std::vector<OrdinateScattering> scattering = scatteringOf(stack, rays);
     const std::vector<Light> light = solve(stack, rays, scattering);
     const StackFlux out = leaving(stack, rays, light);
-    StackTotals totals{out.R.real(), out.T.real(), {}};
+    StackTotals totals{out.R.real(), out.T.real(), {}, {}, {}};
+    totals.R_a =
+        anglesOf(rays.front(), light.front().top_up, rays.front().F_up, stack.layers.front().n, stack.n_above, angles);
+    totals.T_a.assign(static_cast<std::size_t>(angles), 0.0);
+    if (!std::isinf(stack.layers.back().thickness))
+        totals.T_a = anglesOf(rays.back(), light.back().bottom_down, rays.back().F_down, stack.layers.back().n,
+                              stack.n_below, angles);
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const OrdinateStack::Layer& layer = stack.layers[i];
         const auto net = [&](const Vector& down, const Vector& up) {
             return (flux(layer, rays[i], down, nullptr) - flux(layer, rays[i], up, nullptr)).real();
         };
-        const double stays = 1 - std::exp(-layer.sigma_t * layer.thickness);
+        if (layer.sigma_t == 0) {
+            totals.absorbed.push_back(0);
+            continue;
+        }
+        const double stays = 1 - std::exp(-layer.sigma_t / layer.beam_cosine * layer.thickness);
         totals.absorbed.push_back(net(light[i].top_down, light[i].top_up) +
                                   (std::isinf(layer.thickness) ? 0 : -net(light[i].bottom_down, light[i].bottom_up)) +
                                   stays * (layer.beam_down + layer.beam_up));

@@ -13,10 +13,11 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <vector>
 
-#include "transport/exact/ordinate_scattering.h"
+#include "transport/exact/ordinate_orders.h"
 #include "transport/walk/fresnel.h"
 
 namespace searchlight {
@@ -30,45 +31,42 @@ using Vector = Eigen::VectorXcd;
 
 constexpr int kMostSteps = 60;  // of Newton's iteration; 20 were seen at rates of 1e3
 constexpr double kSmallestMoment = 1e-9;
+// |g| is at most 1/2, so that no peak is set apart.
+constexpr int kManyMoments = 60;
 
-// Directions of one hemisphere, mirrored at the plane of k: a weight holds both.
-struct Directions {
-    struct Cosine {
-        double mu, weight;
-    };
-
-    // Cosines of the hemisphere, and so many azimuths at each.
-    Directions(const OrdinateMedium& medium, const std::vector<Cosine>& cosines, int azimuths, Complex rate) {
-        const GaussRule rule = gaussRule(azimuths);
-        set.azimuths = rule.x.size();
-        for (const Cosine& at : cosines) {
-            const double sine = std::sqrt((1 - at.mu) * (1 + at.mu));
-            const double width = std::min(1.0, 1 / (std::abs(rate) * sine + 1e-300)),
-                         end = std::asinh(0.5 * pi / width);
-            const double reflectance = medium.eta == 1 ? 0 : internalReflectance(medium.eta, at.mu);
-            for (std::size_t j = 0; j < rule.x.size(); ++j) {
-                // From the direction across k.
-                const double x = end * (2 * rule.x[j] - 1), angle = width * std::sinh(x);
-                set.mu.push_back(at.mu);
-                set.weight.push_back(at.weight * 4 * end * rule.weight[j] * width * std::cosh(x));
-                F.push_back(reflectance);
-                along.push_back(sine * std::sin(angle));
-                across.push_back(sine * std::cos(angle));
-                set.phi.push_back(0.5 * pi - angle);
-                Q.push_back((1.0 - rate * along.back()) / at.mu);
-            }
-        }
-    }
-
-    std::size_t size() const { return set.mu.size(); }
-
-    OrdinateSet set;
-    std::vector<double> F, along, across;
-    std::vector<Complex> Q;  // q / mu
+struct Cosine {
+    double mu, weight;
 };
 
-std::vector<Directions::Cosine> cosinesOf(const OrdinateMedium& medium, const OrdinateCount& count) {
-    std::vector<Directions::Cosine> cosines;
+// Cosines of the hemisphere, and so many azimuths at each; mirrored at the plane of k, so that a weight holds both.
+LayerRays raysOf(const OrdinateMedium& medium, const std::vector<Cosine>& cosines, int azimuths, Complex rate) {
+    const GaussRule rule = gaussRule(azimuths);
+    LayerRays rays;
+    rays.set.azimuths = rule.x.size();
+    for (const Cosine& at : cosines) {
+        const double sine = std::sqrt((1 - at.mu) * (1 + at.mu));
+        const double width = std::min(1.0, 1 / (std::abs(rate) * sine + 1e-300)), end = std::asinh(0.5 * pi / width);
+        const double reflectance = medium.eta == 1 ? 0 : internalReflectance(medium.eta, at.mu);
+        for (std::size_t j = 0; j < rule.x.size(); ++j) {
+            // From the direction across k.
+            const double x = end * (2 * rule.x[j] - 1), angle = width * std::sinh(x);
+            rays.set.mu.push_back(at.mu);
+            rays.set.weight.push_back(at.weight * 4 * end * rule.weight[j] * width * std::cosh(x));
+            rays.set.phi.push_back(0.5 * pi - angle);
+            rays.along.push_back(sine * std::sin(angle));
+            rays.across.push_back(sine * std::cos(angle));
+            rays.Q.push_back((1.0 - rate * rays.along.back()) / at.mu);
+            rays.F_up.push_back(reflectance);
+            rays.F_down.push_back(0);
+            rays.up.push_back(1 - reflectance);
+            rays.down.push_back(0);
+        }
+    }
+    return rays;
+}
+
+std::vector<Cosine> cosinesOf(const OrdinateMedium& medium, const OrdinateCount& count) {
+    std::vector<Cosine> cosines;
     const double critical = criticalCosine(medium.eta);
     const GaussRule escaping = gaussRule(count.escaping);
     if (critical == 0) {
@@ -87,10 +85,10 @@ std::vector<Directions::Cosine> cosinesOf(const OrdinateMedium& medium, const Or
 }
 
 // Three parts: crowded towards the normal, where s is of the size of 1 / |rate|; up to the critical angle; beyond it.
-std::vector<Directions::Cosine> fineCosines(const OrdinateMedium& medium, int count, Complex rate) {
+std::vector<Cosine> fineCosines(const OrdinateMedium& medium, int count, Complex rate) {
     const double critical = std::acos(criticalCosine(medium.eta)), middle = 0.5 * critical;
     const double width = std::min(1.0, 1 / (std::abs(rate) + 1e-300)), end = std::asinh(middle / width);
-    std::vector<Directions::Cosine> cosines;
+    std::vector<Cosine> cosines;
     const GaussRule rule = gaussRule(count);
     const auto add = [&](double angle, double weight) {
         cosines.push_back({std::cos(angle), std::sin(angle) * weight});
@@ -127,48 +125,25 @@ Matrix decayingModes(Matrix plus, Matrix minus, Complex rate) {
     return plus;
 }
 
-// Twice: down and on, or up and on, or up, down from the surface, and on.
-Complex secondOrder(const OrdinateMedium& medium, const Directions& to, std::size_t i, const Directions& from,
-                    std::size_t j, double same, double other, double down, double up) {
-    const Complex first = up / (from.Q[j] + 1.0), last = 1.0 / (to.Q[i] + 1.0);
-    return medium.albedo * medium.albedo * from.set.weight[j] / from.set.mu[j] *
-           (other * (down * last + from.F[j] * first) / (to.Q[i] + from.Q[j]) + same * first * last);
+// The half-space as a layer, under a beam of unit flux.
+OrdinateStack::Layer layerOf(const OrdinateMedium& medium, int last_moment) {
+    return {.n = medium.eta,
+            .sigma_t = 1,
+            .sigma_s = medium.albedo,
+            .thickness = std::numeric_limits<double>::infinity(),
+            .phase = smoothPhase(medium.g, last_moment),
+            .beam_down = 1};
 }
 
 }  // namespace
 
 Complex secondOrderTransform(const OrdinateMedium& medium, const OrdinateCount& count, Complex rate) {
-    const Directions at(medium, fineCosines(medium, count.second_panel, rate), count.second_azimuths, rate);
-    const double g = medium.g;
-    std::vector<double> down, up;
-    for (const double mu : at.set.mu) {
-        down.push_back(henyeyGreenstein(g, mu));
-        up.push_back(henyeyGreenstein(g, -mu));
-    }
-    Complex sum = 0;
-    for (std::size_t i = 0; i < at.size(); ++i) {
-        if (at.F[i] == 1) continue;
-        Complex inner = 0;
-        for (std::size_t j = 0; j < at.size(); ++j) {
-            double same = 1 / (4 * pi), other = same;
-            if (g != 0) {
-                // Mean over both sides of the plane of k.
-                const double normal = at.set.mu[i] * at.set.mu[j], along = at.along[i] * at.along[j];
-                const double across = at.across[i] * at.across[j];
-                same =
-                    0.5 * (henyeyGreenstein(g, normal + along + across) + henyeyGreenstein(g, normal + along - across));
-                other = 0.5 *
-                        (henyeyGreenstein(g, -normal + along + across) + henyeyGreenstein(g, -normal + along - across));
-            }
-            inner += secondOrder(medium, at, i, at, j, same, other, down[j], up[j]);
-        }
-        sum += at.set.weight[i] * (1 - at.F[i]) * inner;
-    }
-    return sum;
+    const LayerRays rays = raysOf(medium, fineCosines(medium, count.second_panel, rate), count.second_azimuths, rate);
+    return secondOrder(layerOf(medium, kManyMoments), rays, nullptr).R;
 }
 
 Complex ordinateTransform(const OrdinateMedium& medium, const OrdinateCount& count, Complex rate) {
-    const Directions at(medium, cosinesOf(medium, count), count.azimuths, rate);
+    const LayerRays at = raysOf(medium, cosinesOf(medium, count), count.azimuths, rate);
     std::vector<double> moments;
     for (double moment = 1; std::abs(moment) > kSmallestMoment && moments.size() < 2 * at.size() / at.set.azimuths - 1;
          moment *= medium.g)
@@ -195,23 +170,16 @@ Complex ordinateTransform(const OrdinateMedium& medium, const OrdinateCount& cou
     Vector leaving = (alpha + one - reflection * beta).partialPivLu().solve(up + reflection * down);
     if (medium.eta != 1) {
         Matrix surface = one;
-        for (Eigen::Index j = 0; j < n; ++j) surface.col(j) -= at.F[static_cast<std::size_t>(j)] * reflection.col(j);
+        for (Eigen::Index j = 0; j < n; ++j) surface.col(j) -= at.F_up[static_cast<std::size_t>(j)] * reflection.col(j);
         leaving = surface.partialPivLu().solve(leaving);
     }
     Complex sum = 0;
     for (Eigen::Index i = 0; i < n; ++i) {
         const auto to = static_cast<std::size_t>(i);
-        if (at.F[to] == 1) continue;
-        Complex two = 0;
-        for (Eigen::Index j = 0; j < n; ++j) {
-            const auto from = static_cast<std::size_t>(j);
-            const std::size_t cell = to * at.size() + from;
-            two += secondOrder(medium, at, to, at, from, scattering.same[cell], scattering.other[cell],
-                               scattering.down[from], scattering.up[from]);
-        }
-        const Complex once = up[i] / (at.Q[to] + 1.0);
-        sum += at.set.weight[to] * (1 - at.F[to]) * (at.set.mu[to] * (leaving[i] - once) - two);
+        sum += at.set.weight[to] * (1 - at.F_up[to]) * at.set.mu[to] * leaving[i];
     }
+    const OrdinateStack::Layer layer = layerOf(medium, kManyMoments);
+    sum -= firstOrder(layer, at, scattering).R + secondOrder(layer, at, &scattering).R;
     return sum + secondOrderTransform(medium, count, rate);
 }
 

@@ -242,7 +242,7 @@ HalfSpaceResult walkHalfSpace(const HalfSpaceProblem& problem, const HalfSpaceOp
     if (result.estimator == Estimator::best) best.emplace(walk, edges, tuningFor(walk));
     ChunkedWalk job;
     job.plan = planChunks(options.walks, options.control.until_error > 0);
-    if (options.control.state && !options.control.state->empty()) job.plan.size = options.control.state->chunk_size;
+    job.plan = job.plan.goingOn(options.control.state);
     job.threads = options.threads;
     job.enough = enoughFor(options.control.until_error, layout);
     job.control = options.control;

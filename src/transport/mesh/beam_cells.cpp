@@ -9,7 +9,7 @@ namespace searchlight {
 
 namespace {
 
-constexpr double kFewestCells = 8, kMostCells = 128;  // along the mesh: facets about as large as cells
+constexpr double kFewestCells = 8;  // along the mesh: facets about as large as cells
 
 }  // namespace
 
@@ -29,15 +29,14 @@ Box Box::both(const Box& other) const {
     return {{x0, y0, z0}, {x1, y1, z1}};
 }
 
-BeamCells::BeamCells(const Mesh& mesh) {
+BeamCells::BeamCells(const Mesh& mesh, double most) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     Box box{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
     for (const Vec3f& p : mesh.positions) box.hold(toDouble(p));
     const Vec3 extent = box.high - box.low;
     const double longest = std::max({extent.x, extent.y, extent.z});
     diagonal_mm_ = length(extent);
-    cell_mm_ =
-        longest / std::clamp(std::sqrt(static_cast<double>(mesh.triangles.size()) / 6), kFewestCells, kMostCells);
+    cell_mm_ = longest / std::clamp(std::sqrt(static_cast<double>(mesh.triangles.size()) / 6), kFewestCells, most);
     low_ = box.low;
     const auto cells = [&](double side) { return static_cast<std::int32_t>(side / cell_mm_) + 1; };
     nx_ = cells(extent.x), ny_ = cells(extent.y), nz_ = cells(extent.z);
@@ -56,7 +55,16 @@ std::size_t BeamCells::at(Vec3f position) const {
            along(position.x, low_.x, nx_);
 }
 
-void BeamCells::forEach(const Sweep& sweep, const std::function<void(std::size_t)>& visit) const {
+Box BeamCells::boxOf(std::size_t cell) const {
+    const auto nx = static_cast<std::size_t>(nx_), ny = static_cast<std::size_t>(ny_);
+    const Vec3 low = low_ + cell_mm_ * Vec3{static_cast<double>(cell % nx), static_cast<double>(cell / nx % ny),
+                                            static_cast<double>(cell / (nx * ny))};
+    return {low, low + cell_mm_ * Vec3{1, 1, 1}};
+}
+
+// Visits cells slice by slice, with where the slice begins, until a visit returns false.
+template <class Visit>
+void BeamCells::slices(const Sweep& sweep, const Visit& visit) const {
     const auto& [base, directions, longest] = sweep;
     const double reach = std::min(longest, diagonal_mm_);  // beyond there is no mesh
     const double margin = 1e-3 * cell_mm_;
@@ -77,23 +85,44 @@ void BeamCells::forEach(const Sweep& sweep, const std::function<void(std::size_t
         for (std::int32_t z = z0; z <= z1; ++z)
             for (std::int32_t y = y0; y <= y1; ++y)
                 for (std::int32_t x = x0; x <= x1; ++x)
-                    visit((static_cast<std::size_t>(z) * static_cast<std::size_t>(ny_) + static_cast<std::size_t>(y)) *
-                              static_cast<std::size_t>(nx_) +
-                          static_cast<std::size_t>(x));
+                    if (!visit(from, (static_cast<std::size_t>(z) * static_cast<std::size_t>(ny_) +
+                                      static_cast<std::size_t>(y)) *
+                                             static_cast<std::size_t>(nx_) +
+                                         static_cast<std::size_t>(x)))
+                        return;
         from += cell_mm_;
     } while (from < reach);
 }
 
+void BeamCells::forEach(const Sweep& sweep, const std::function<void(std::size_t, double)>& visit) const {
+    slices(sweep, [&](double from, std::size_t cell) {
+        visit(cell, from);
+        return true;
+    });
+}
+
+double BeamCells::clear(const Sweep& sweep, const std::function<bool(std::size_t)>& blocked) const {
+    double clear = std::numeric_limits<double>::infinity();
+    slices(sweep, [&](double from, std::size_t cell) {
+        if (!blocked(cell)) return true;
+        clear = from;
+        return false;
+    });
+    return clear;
+}
+
 std::optional<CellLists> CellLists::of(const BeamCells& cells, std::uint32_t first, std::uint32_t end,
-                                       const std::function<Sweep(std::uint32_t)>& sweep, double most) {
+                                       const std::function<Sweep(std::uint32_t)>& sweep, double most,
+                                       std::span<float> nearest) {
     // What meets a cell in two slices is listed there once.
     std::vector<std::uint32_t> last(cells.count(), 0), sizes(cells.count(), 0);
     double total = 0;
     for (std::uint32_t i = first; i < end; ++i) {
-        cells.forEach(sweep(i), [&](std::size_t cell) {
+        cells.forEach(sweep(i), [&](std::size_t cell, double from) {
             if (last[cell] == i + 1) return;
             last[cell] = i + 1;
             ++sizes[cell], ++total;
+            if (!nearest.empty()) nearest[cell] = std::min(nearest[cell], static_cast<float>(from));
         });
         if (total > most) return {};
     }
@@ -104,7 +133,7 @@ std::optional<CellLists> CellLists::of(const BeamCells& cells, std::uint32_t fir
     std::vector<std::uint32_t> next(lists.first_.begin(), lists.first_.end() - 1);
     std::ranges::fill(last, 0);
     for (std::uint32_t i = first; i < end; ++i)
-        cells.forEach(sweep(i), [&](std::size_t cell) {
+        cells.forEach(sweep(i), [&](std::size_t cell, double) {
             if (last[cell] == i + 1) return;
             last[cell] = i + 1;
             lists.list_[next[cell]++] = i;

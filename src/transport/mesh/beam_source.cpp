@@ -8,13 +8,15 @@ namespace searchlight {
 
 namespace {
 
-// Where walks are long, asking one of so many collisions costs about as much as walking, and noise is hardly more than
-// that of the walks themselves. Short walks, in bodies that are thin, ask oftener.
-constexpr double kMostOf = 16;
+// A walk asks so often in the mean: that costs about what the walk does, and noise is hardly more than where each
+// collision asks.
+constexpr double kAsks = 4, kMostOf = 16;
 
+// Walks end as they come through, after a mean chord, or are absorbed.
 int oneOf(const MeshBody& mesh, const BodyMedium& medium) {
-    const double chord = 4 * mesh.volume() / mesh.area();  // in the mean
-    return static_cast<int>(std::bit_floor(static_cast<unsigned>(std::clamp(chord * medium.sigma_t, 1.0, kMostOf))));
+    const double chord = 4 * mesh.volume() / mesh.area();
+    const double collisions = 1 / (1 / (chord * medium.sigma_t) + medium.absorbed);
+    return static_cast<int>(std::bit_floor(static_cast<unsigned>(std::clamp(collisions / kAsks, 1.0, kMostOf))));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "base/directions.h"
 #include "transport/mesh/closed_body.h"
 #include "transport/mesh/entry_lanes.h"
 
@@ -14,11 +15,7 @@ namespace {
 
 // Directions of uniform radiance by their cosine: the weight is pi.
 Vec3 cosineDirection(Vec3 n, double u, double v) {
-    const double ring = std::sqrt(u), turn = 2 * std::numbers::pi * v;
-    // Frame of [Duff2017].
-    const double sign = std::copysign(1.0, n.z), k = -1 / (sign + n.z), xy = n.x * n.y * k;
-    const Vec3 tangent{1 + sign * n.x * n.x * k, sign * xy, -sign * n.x}, bitangent{xy, sign + n.y * n.y * k, -n.y};
-    return ring * std::cos(turn) * tangent + ring * std::sin(turn) * bitangent + std::sqrt(1 - u) * n;
+    return directionAround(n, std::sqrt(1 - u), 2 * std::numbers::pi * v);
 }
 
 }  // namespace

@@ -17,8 +17,6 @@ namespace searchlight {
 namespace {
 
 constexpr double kMostDirectRefs = 1 << 28;  // 1 GiB
-// Beams weaker than this are followed up by a roulette: they cost as many rays as the others.
-constexpr double kWeak = 0.2;
 // What is mirrored is a small part of most bodies' light: it is asked for at one collision of so many.
 constexpr double kImages = 4;
 constexpr float kAnywhere = 1e30F;  // slack that leaves all to arrive()
@@ -52,16 +50,29 @@ FacetBeams::FacetBeams(const MeshBody& body, const BodyMedium& medium, const Lig
       channel_(channel),
       cells_(body.mesh()),
       reach_mm_(kReach / medium.sigma_t) {
+    const Mesh& mesh = body.mesh();
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) normals_.push_back(unitNormal(mesh, t));
     for (std::uint32_t light = 0; light < lights.count(); ++light)
-        if (lights.singular(light))
-            addBeams(light);
-        else if (lights.narrow(light))
-            addDisc(light);
-    const auto sweep = [&](std::uint32_t i) { return sweepOf(beams_[i]); };
+        if (lights.singular(light)) addBeams(light);
+    discs_begin_ = static_cast<std::uint32_t>(beams_.size());
+    gates_.resize(discs_begin_);
+    for (std::uint32_t light = 0; light < lights.count(); ++light)
+        if (!lights.singular(light) && lights.narrow(light)) addDisc(light);
     const auto direct = static_cast<std::uint32_t>(beams_.size());
-    std::optional<CellLists> lists = CellLists::of(cells_, 0, direct, sweep, kMostDirectRefs);
-    if (!lists) throw inputError("the light's beams through the mesh take more than 1 GiB", "a coarser mesh");
-    direct_ = std::move(*lists);
+    std::vector<Sweep> sweeps;
+    for (const Beam& beam : beams_) sweeps.push_back(sweepOf(beam));
+    std::vector<float> nearest_mm(cells_.count(), std::numeric_limits<float>::infinity());
+    const auto listed = [&](std::uint32_t first, std::uint32_t end) {
+        std::optional<CellLists> lists = CellLists::of(
+            cells_, first, end, [&](std::uint32_t i) { return sweeps[i]; }, kMostDirectRefs, nearest_mm);
+        if (!lists) throw inputError("the light's beams through the mesh take more than 1 GiB", "a coarser mesh");
+        return std::move(*lists);
+    };
+    direct_ = listed(0, discs_begin_);
+    discs_ = listed(discs_begin_, direct);
+    findClear(sweeps);
+    for (const float nearest : nearest_mm)
+        worth_.push_back(static_cast<float>(std::exp(-medium_.sigma_t * static_cast<double>(nearest))));
     if (!lights.singular()) return;  // what is mirrored of discs is met
     measureMirrored();
     addOrders(std::min(most_orders, kMostOrders));
@@ -161,14 +172,12 @@ Vec3 FacetBeams::directionAt(const Beam& beam, Vec3 place) const {
     return refracted(sample.wi, unitNormal(body_.mesh(), beam.triangle), medium_.eta);
 }
 
-// Where on a beam's facet, or near it, light enters that comes to a position; of a disc, from its point (u, v). False
-// where none does.
-bool FacetBeams::arrive(const Beam& beam, Vec3 position, double u, double v, Arrival& arrival) const {
-    const auto [a, b, c] = cornersOf(body_.mesh(), beam.triangle);
-    const Vec3 normal = unitNormal(body_.mesh(), beam.triangle);
+// Where on a beam's facet, or near it, light enters that comes to a position. False where none does. Not of a disc.
+bool FacetBeams::arrive(const Beam& beam, Vec3 position, Arrival& arrival) const {
+    const Vec3 a = cornersOf(body_.mesh(), beam.triangle)[0], normal = normals_[beam.triangle];
     const double depth = -dot(position - a, normal), eta = medium_.eta;
     if (!(depth > 0)) return false;
-    LightSample light = lights_.sampleOf(beam.light, a, u, v);
+    LightSample light = lights_.sampleOf(beam.light, a, 0.5, 0.5);
     double spread = 1;
     if (beam.parallel) {
         if (!(dot(light.wi, normal) > 0)) return false;
@@ -184,7 +193,7 @@ bool FacetBeams::arrive(const Beam& beam, Vec3 position, double u, double v, Arr
         arrival.distance = length(position - arrival.entry);
         arrival.direction = (1 / arrival.distance) * (position - arrival.entry);
     }
-    light = lights_.sampleOf(beam.light, arrival.entry, u, v);
+    light = lights_.sampleOf(beam.light, arrival.entry, 0.5, 0.5);
     arrival.wi = light.wi;
     arrival.light_distance = light.distance;
     const double outside = dot(light.wi, normal), inside = -dot(arrival.direction, normal);
@@ -201,14 +210,19 @@ bool FacetBeams::arrive(const Beam& beam, Vec3 position, double u, double v, Arr
 
 double FacetBeams::scattered(Vec3f position, Vec3 direction, SplitMix64& random, std::uint64_t& rays) const {
     const std::size_t cell = cells_.at(position);
-    const double u = random.uniform(), v = random.uniform();
-    const Collision collision{position, direction, u, v};
+    const Collision collision{position, direction};
     double sum = 0;
-    for (const std::uint32_t i : direct_.at(cell))
-        if (mayReach(beams_[i], position)) sum += by(beams_[i], collision, random, rays);
+    const auto asked = static_cast<double>(worth_[cell]);
+    if (asked == 1 || random.uniform() < asked) {
+        if (discs_.size() > 0) sum += fromDiscs(discs_.at(cell), collision, random, rays);
+        if (direct_.size() > 0)
+            for (const std::uint32_t i : direct_.at(cell))
+                if (mayReach(beams_[i], position)) sum += by(i, collision, random, rays);
+        sum /= asked;
+    }
     if (orders_ > 0 && random.uniform() * kImages < 1)
         for (const std::uint32_t i : images_.at(cell))
-            if (mayReach(beams_[i], position)) sum += kImages * by(beams_[i], collision, random, rays);
+            if (mayReach(beams_[i], position)) sum += kImages * by(i, collision, random, rays);
     return sum / (medium_.eta * medium_.eta);
 }
 
@@ -220,8 +234,7 @@ bool FacetBeams::mayReach(const Beam& beam, Vec3f position) const {
     const float u = number(0), v = number(1), t = number(2);
     const float margin = static_cast<float>(kFacetMargin) + beam.slack * std::abs(t);
     const auto within = [&](int i, float x) { return x >= beam.low[i] - margin && x <= beam.high[i] + margin; };
-    return within(0, u) && within(1, v) && within(2, u + v) &&
-           (!beam.parallel || beam.disc || (t > beam.begin && t < beam.end));
+    return within(0, u) && within(1, v) && within(2, u + v) && (!beam.parallel || (t > beam.begin && t < beam.end));
 }
 
 // Whether a place in the plane of a beam's facet is on it.
@@ -230,31 +243,45 @@ bool FacetBeams::enters(const Beam& beam, Vec3 entry) const {
         return dot(toDouble(beam.rows[row]), entry) + static_cast<double>(beam.constants[row]);
     };
     const double u = number(0), v = number(1);
-    return u >= -kFacetMargin && v >= -kFacetMargin && u + v <= 1 + kFacetMargin;
+    return u >= 0 && v >= 0 && u + v <= 1;
 }
 
-double FacetBeams::by(const Beam& beam, const Collision& collision, SplitMix64& random, std::uint64_t& rays) const {
+// Whether something is between a collision and the place of a facet, in the beam's straight way to it, or between that
+// and the light.
+bool FacetBeams::hidden(std::uint32_t beam, Vec3f from, const Arrival& light, std::uint64_t& rays) const {
+    const Clearance clear = beam < clearances_.size() ? clearances_[beam] : Clearance{};
+    const std::uint32_t facet = beams_[beam].triangle;
+    if (light.distance < static_cast<double>(clear.inside_mm)) {
+        if (!enters(beams_[beam], light.entry)) return true;
+    } else {
+        const auto hit = body_.rays().intersect({from, toFloat(-1.0 * light.direction)});
+        ++rays;
+        if (!hit || hit->triangle != facet) return true;
+    }
+    if (clear.outside) return false;
+    ++rays;
+    return body_.occluded({light.entry, normals_[facet]}, light.wi, light.light_distance);
+}
+
+double FacetBeams::by(std::uint32_t index, const Collision& collision, SplitMix64& random, std::uint64_t& rays) const {
+    const Beam& beam = beams_[index];
     Vec3 place = toDouble(collision.position);
     const auto mirrors = mirrorsOf(beam);
     for (std::size_t i = mirrors.size(); i-- > 0;) place = imageOf(body_.mesh(), mirrors[i], place);
     Arrival light;
-    if (!arrive(beam, place, collision.u, collision.v, light) || light.distance >= static_cast<double>(beam.end))
-        return 0;
-    if (beam.disc && !enters(beam, light.entry)) return 0;
+    if (!arrive(beam, place, light) || light.distance >= static_cast<double>(beam.end)) return 0;
     std::array<Leg, kMostOrders + 1> legs;
     const double left = throughMirrors(beam, light, legs) * std::exp(-medium_.sigma_t * light.distance);
     if (left == 0 || (left < kWeak && random.uniform() * kWeak >= left)) return 0;
     // Back along its legs.
     Vec3f from = collision.position;
-    for (std::size_t leg = mirrors.size() + 1; leg-- > 0;) {
+    for (std::size_t leg = mirrors.size(); leg > 0; --leg) {
         const auto hit = body_.rays().intersect({from, toFloat(-1.0 * legs[leg].direction)});
         ++rays;
-        if (!hit || hit->triangle != (leg > 0 ? mirrors[leg - 1] : beam.triangle)) return 0;
-        const SurfacePoint point{leg > 0 ? legs[leg - 1].end : light.entry, toDouble(hit->normal)};
-        if (leg > 0) from = body_.below(point);
-        if (leg == 0 && body_.occluded(point, light.wi, light.light_distance)) return 0;
+        if (!hit || hit->triangle != mirrors[leg - 1]) return 0;
+        from = body_.below({legs[leg - 1].end, toDouble(hit->normal)});
     }
-    ++rays;
+    if (hidden(index, from, light, rays)) return 0;
     // Along the light's way back: the collision's direction is that of the walk from the camera.
     return light.irradiance * std::max(left, kWeak) *
            Physics<double>::henyeyGreenstein(-dot(collision.direction, legs[mirrors.size()].direction), medium_.g);

@@ -16,6 +16,7 @@
 #include "transport/mesh/beam_cells.h"
 #include "transport/mesh/body_walk.h"
 #include "transport/mesh/closed_body.h"
+#include "transport/mesh/disc_gates.h"
 
 namespace searchlight {
 
@@ -49,6 +50,9 @@ public:
     double mirrored() const { return mirrored_[orders_]; }
 
 private:
+    // Beams weaker than this are followed up by a roulette: they cost as many rays as the others.
+    static constexpr double kWeak = 0.2;
+
     // The point (u, v) of a facet from which light gets to a position x after the distance t: each is row . x +
     // constant. Behind light from a point or a disc u and v are off by up to the slack times t.
     struct Beam {
@@ -65,6 +69,15 @@ private:
         float constants[3] = {};
         float low[3] = {0, 0, 0}, high[3] = {1, 1, 1};  // of u, v and u + v: light beyond misses a mirror
     };
+    // The light that the disc's beams before this one are of.
+    struct DiscEnd {
+        std::uint32_t beam = 0, light = 0;
+    };
+    // What surely needs no ray.
+    struct Clearance {
+        float inside_mm = 0;   // from its facet up to there nothing hides that
+        bool outside = false;  // nothing hides the light from its facet
+    };
     // Where the beam comes from as it looks from its last leg: x = corner + u side + v other + t direction.
     struct Frame {
         Vec3 corner, side, other, direction;
@@ -76,11 +89,10 @@ private:
         double irradiance = 0;      // without what is lost on the way through the medium and at mirrors
         double light_distance = 0;
     };
-    // What asks, and for which point of each disc.
+    // What asks.
     struct Collision {
         Vec3f position;
         Vec3 direction;
-        double u = 0, v = 0;
     };
     // Of light from a point with a facet's normal: the largest outside, and the range inside; 0 under total reflection.
     struct Cosines {
@@ -93,6 +105,8 @@ private:
 
     void addBeams(std::uint32_t light);
     void addDisc(std::uint32_t light);
+    DiscGate gateOf(const Beam& beam, std::span<const Vec3> directions) const;
+    void findClear(std::span<const Sweep> sweeps);
     void addOrders(std::size_t most);
     bool addOrder(const CellLists& facets, std::uint32_t first, std::size_t most);
     std::optional<Beam> behind(const Beam& beam, const Frame& frame, std::uint32_t facet) const;
@@ -105,14 +119,20 @@ private:
     Vec3 directionAt(const Beam& beam, Vec3 place) const;
     Sweep sweepOf(const Beam& beam) const;
     Sweep sweepOfDisc(const Beam& beam) const;
+    std::optional<Box> directionsTo(std::uint32_t light) const;
     std::span<const std::uint32_t> mirrorsOf(const Beam& beam) const {
         return {mirrors_.data() + beam.mirrors, beam.order};
     }
     bool mayReach(const Beam& beam, Vec3f position) const;
-    bool arrive(const Beam& beam, Vec3 position, double u, double v, Arrival& arrival) const;
+    bool arrive(const Beam& beam, Vec3 position, Arrival& arrival) const;
     bool enters(const Beam& beam, Vec3 entry) const;
     double throughMirrors(const Beam& beam, const Arrival& light, std::array<Leg, kMostOrders + 1>& legs) const;
-    double by(const Beam& beam, const Collision& collision, SplitMix64& random, std::uint64_t& rays) const;
+    bool hidden(std::uint32_t beam, Vec3f from, const Arrival& light, std::uint64_t& rays) const;
+    double fromDiscs(std::span<const std::uint32_t> list, const Collision& collision, SplitMix64& random,
+                     std::uint64_t& rays) const;
+    double byDisc(std::uint32_t beam, const LightSample& light, const Collision& collision, SplitMix64& random,
+                  std::uint64_t& rays) const;
+    double by(std::uint32_t index, const Collision& collision, SplitMix64& random, std::uint64_t& rays) const;
     void measureMirrored();
 
     const MeshBody& body_;
@@ -121,10 +141,17 @@ private:
     int channel_;
     BeamCells cells_;
     std::vector<Beam> beams_;
+    std::vector<Clearance> clearances_;  // of those that enter
     std::vector<std::uint32_t> mirrors_;
+    std::vector<Vec3> normals_;             // of the facets
+    std::uint32_t discs_begin_ = 0;         // the first disc's beam; images follow the last
+    std::vector<DiscEnd> disc_ends_;        // ascending
+    std::vector<DiscGate> gates_;           // of all beams up to the discs' last
     std::vector<std::vector<Vec3>> spans_;  // of lights that are discs: directions that span them
     double reach_mm_ = 0;
-    CellLists direct_, images_;  // of each cell, the beams that may pass through it
+    // Of each cell, how likely a collision is to look for beams: what is left at most of one that enters.
+    std::vector<float> worth_;
+    CellLists direct_, discs_, images_;  // of each cell, the beams that may pass through it
     std::size_t orders_ = 0;
     std::array<double, kMostOrders + 1> mirrored_{};  // part that is mirrored more often than that
 };

@@ -114,7 +114,7 @@ bool FacetBeams::addOrder(const CellLists& facets, std::uint32_t first, std::siz
         const Beam beam = beams_[i];
         if (beam.disc) continue;
         const Frame frame = frameOf(beam);
-        cells_.forEach(sweepOf(beam), [&](std::size_t cell) {
+        cells_.forEach(sweepOf(beam), [&](std::size_t cell, double) {
             for (const std::uint32_t facet : facets.at(cell)) {
                 if (seen[facet] == i + 1) continue;
                 seen[facet] = i + 1;

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <numbers>
 #include <span>
 
 #include "base/error.h"
 #include "base/parallel.h"
 #include "transport/mesh/entry.h"
 #include "transport/walk/fresnel.h"
+#include "transport/walk/henyey_greenstein.h"
 
 namespace searchlight {
 
@@ -20,22 +20,6 @@ constexpr std::uint64_t pilot_stream = ~std::uint64_t{1};
 constexpr std::uint64_t chunk_count = 128;
 // Of what entered: rays that carry less go on by roulette.
 constexpr double least_part = 1e-3;
-
-// Direction at the cosine `mu` and azimuth `phi` about `axis`; frame of [Duff2017].
-Vec3 turned(Vec3 axis, double mu, double phi) {
-    const double sign = std::copysign(1.0, axis.z), k = -1 / (sign + axis.z), xy = axis.x * axis.y * k;
-    const Vec3 tangent{1 + sign * axis.x * axis.x * k, sign * xy, -sign * axis.x};
-    const Vec3 bitangent{xy, sign + axis.y * axis.y * k, -axis.y};
-    const double sine = std::sqrt(std::max(0.0, 1 - mu * mu));
-    return normalize(sine * std::cos(phi) * tangent + sine * std::sin(phi) * bitangent + mu * axis);
-}
-
-// [HenyeyGreenstein1941].
-double scatteringCosine(double g, double u) {
-    if (std::abs(g) < 1e-3) return 2 * u - 1;
-    const double k = (1 - g * g) / (1 - g + 2 * g * u);
-    return std::clamp((1 + g * g - k * k) / (2 * g), -1.0, 1.0);
-}
 
 // A candidate's weight up to which candidates are rouletted, and the part of them that arrives: as in walkBody().
 struct Pilot {
@@ -117,8 +101,7 @@ private:
     void scatter(const Beam& beam, double passed) {
         const double distance = -std::log1p(-random_.uniform() * (1 - passed)) / sigma_t_;
         Beam next{toFloat(toDouble(beam.position) + distance * beam.direction), {}, 0};
-        next.direction =
-            turned(beam.direction, scatteringCosine(g_, random_.uniform()), 2 * std::numbers::pi * random_.uniform());
+        next.direction = scatteredDirection(beam.direction, g_, random_);
         next.weight = albedo_ * (1 - passed) * beam.weight;
         follow(next, false);
     }

@@ -2,25 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "model/physics.h"
 #include "transport/walk/fresnel.h"
+#include "transport/walk/henyey_greenstein.h"
 
 namespace searchlight {
 
 namespace {
-
-// By inversion [HenyeyGreenstein1941].
-Vec3 scattered(Vec3 d, double g, SplitMix64& random) {
-    const double s = 2 * random.uniform() - 1, turn = 2 * std::numbers::pi * random.uniform();
-    const double q = (1 - g * g) / (1 + g * s), c = std::abs(g) < 1e-6 ? s : (1 + g * g - q * q) / (2 * g);
-    const double ring = std::sqrt(std::max(0.0, (1 - c) * (1 + c)));
-    // Frame of [Duff2017].
-    const double sign = std::copysign(1.0, d.z), k = -1 / (sign + d.z), xy = d.x * d.y * k;
-    const Vec3 tangent{1 + sign * d.x * d.x * k, sign * xy, -sign * d.x}, bitangent{xy, sign + d.y * d.y * k, -d.y};
-    return normalize(ring * std::cos(turn) * tangent + ring * std::sin(turn) * bitangent + c * d);
-}
 
 // From one collision, or the surface, to the next collision.
 struct Flight {
@@ -125,7 +114,7 @@ private:
             if (random_.uniform() < medium_.absorbed) break;
             collected += lights_.at({position, end, direction, length}, random_, chunk_.rays);
             position = end;
-            direction = scattered(direction, medium_.g, random_);
+            direction = scatteredDirection(direction, medium_.g, random_);
             scatters = true;
         }
         // One exit for all: the error is that of walks, and what one of them finds in two ways is not independent.

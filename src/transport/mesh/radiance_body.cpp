@@ -73,7 +73,7 @@ BodyRadiance walkAny(const Body& body, const Medium& medium, int channel, const 
     ChunkedWalk job;
     job.plan.walks = options.walks_per_pixel * camera.pixels();
     job.plan.size = std::clamp((job.plan.walks + kFewestChunks - 1) / kFewestChunks, std::uint64_t{1}, kLargestChunk);
-    if (options.control.state && !options.control.state->empty()) job.plan.size = options.control.state->chunk_size;
+    job.plan = job.plan.goingOn(options.control.state);
     if (options.large_steps) walk.ways = waysFor(job.plan.size);
     job.threads = options.threads;
     job.control = options.control;
@@ -84,7 +84,7 @@ BodyRadiance walkAny(const Body& body, const Medium& medium, int channel, const 
         job, {BatchRatios(pixels + 2 * camera.pixels())}, BodyChunk(),
         [&](std::uint64_t chunk, std::uint64_t count, BodyChunk& tally) {
             SplitMix64 seeds = streamOf(options.seed, 4 * chunk + static_cast<std::uint64_t>(channel));
-            CameraSource<Body> source(body, camera, light, channel, medium.eta, chunk * job.plan.size, count,
+            CameraSource<Body> source(body, camera, light, channel, medium.eta, job.plan.firstOf(chunk), count,
                                       SplitMix64(seeds.next()));
             const SplitMix64 random(seeds.next());
             tally = beams                       ? walkBeamsChunk(body, walk, *beams, source, random)

@@ -138,7 +138,7 @@ BodyResult walkAny(const Body& body, const Medium& medium, int channel, const Il
     ChunkedWalk job;
     job.plan.walks = static_cast<std::uint64_t>(std::ceil(walks / pilot.arrivals));
     job.plan.size = static_cast<std::uint64_t>(std::ceil(static_cast<double>(job.plan.walks) / chunks));
-    if (options.control.state && !options.control.state->empty()) job.plan.size = options.control.state->chunk_size;
+    job.plan = job.plan.goingOn(options.control.state);
     if (options.large_steps)
         walk.ways = waysFor(static_cast<std::uint64_t>(static_cast<double>(job.plan.size) * pilot.arrivals));
     job.threads = options.threads;

@@ -206,7 +206,9 @@ private:
         if (walks_ == 0) return {};
         Estimate e = sums_.estimate(slot, walks_);
         double least = one_event / static_cast<double>(walks_);
-        if (best_ != nullptr && best_->worthwhile)
+        const double led = best_ != nullptr && best_->lead ? best_->lead->event[slot] : 0;
+        if (led > 0) least = led / static_cast<double>(walks_);
+        if (led > 0 || (best_ != nullptr && best_->mix.foresees))
             // Where less than a thousandth of an exit was foreseen, what leaves may come by ways that no walk took.
             least = e.mean < 1e-3 * least ? least : 0;
         e.standard_error = std::max(e.standard_error, least);
@@ -328,11 +330,11 @@ SlabResult walkSlab(const SlabProblem& problem, const SlabOptions& options, Obse
     if (options.estimator == SlabEstimator::best && !options.gl) {
         best.emplace(walk, options.edges_mm, layout);
         result.estimator = SlabEstimator::best;
-        result.foresees = best->worthwhile;
+        result.foresees = best->mix.foresees;
     }
     ChunkedWalk job;
     job.plan = planChunks(options.walks, options.control.until_error > 0);
-    if (options.control.state && !options.control.state->empty()) job.plan.size = options.control.state->chunk_size;
+    job.plan = job.plan.goingOn(options.control.state);
     job.threads = options.threads;
     job.enough = enoughFor(options.control.until_error, layout);
     job.control = options.control;

@@ -22,6 +22,8 @@
 #define HWY_TARGET_INCLUDE "transport/slab/slab_best.cpp"
 #include <hwy/foreach_target.h>
 
+#include "transport/slab/slab_best_lanes-inl.h"
+#include "transport/slab/slab_depths-inl.h"
 #include "transport/slab/slab_ways-inl.h"
 #include "transport/walk/lane_foresee-inl.h"
 #include "transport/walk/lane_walk-inl.h"
@@ -36,43 +38,13 @@ constexpr float kRoulette = 0.6f;
 // scattered twice.
 constexpr std::int32_t kUnjudged = 2;
 
-// Where a walk stands.
-enum Flight : std::int32_t {
-    collides,   // at a collision
-    foreseen,   // at an interface; if it leaves as it flies, that was counted
-    uncounted,  // at an interface; if it leaves, that is to be counted
-};
-
-enum Side { up, down, sides };
-
-struct alignas(64) SlabBestLanes {
-    float x[kLanes], y[kLanes], z[kLanes];  // z from the top of the layer
-    float u[kLanes], v[kLanes], w[kLanes];
-    float weight[kLanes];
-    float value[kLanes];  // weight times importance
-    std::int32_t order[kLanes], layer[kLanes], flight[kLanes];
-    std::uint64_t s0[kLanes / 2], s1[kLanes / 2];
-};
-
-struct SlabBestPack {
-    FloatV x, y, z;
-    Direction direction;
-    FloatV weight;
-    IntV order, layer, flight;
-    Generator random;
-};
-
-// Part of a split walk that waits for a lane.
-struct SlabWaiting {
-    float x, y, z, u, v, w, weight;
-    std::int32_t order, layer, flight, parts;
-};
-
 template <bool kIsotropic, bool kLayered>
 class SlabBestWalker {
 public:
-    SlabBestWalker(const SlabBestPlan& plan, SplitMix64 seeds, std::uint64_t walks)
+    SlabBestWalker(const SlabBestPlan& plan, SplitMix64 seeds, std::uint64_t walks, const SlabLead* lead)
         : plan_(plan),
+          importance_(lead != nullptr ? lead->importance : plan.importance),
+          lead_(lead != nullptr ? lead->rate : std::vector<float>()),
           waiting_(walks),
           slots_(plan.bins.next_edge.size()),
           stride_(3 * slots_ | 1),
@@ -80,8 +52,7 @@ public:
           flux_(3 * slots_),
           angle_sums_(sides * plan.layout.angles() * kCopies),
           angle_flux_(sides * plan.layout.angles()),
-          depth_sums_(plan.depths.slots.size() * kCopies),
-          depth_flux_(plan.depths.slots.size()),
+          depths_(plan.depths),
           last_(static_cast<std::int32_t>(plan.walk.layers.size()) - 1),
           has_below_(!std::isinf(plan.walk.layers.back().thickness_mm)),
           ways_{{plan.walk, true, plan.layout.angles(), seeds}, {plan.walk, false, plan.layout.angles(), seeds}} {
@@ -95,14 +66,10 @@ public:
             add(half_qq_, 0.5 * (1 - layer.g) * (1 - layer.g));
             add(eta_, layer.eta_down);
             add(eta_, layer.eta_up);
-            add(rows_per_mm_, plan.importance.layers[i].rows_per_mm);
-            first_row_.push_back(plan.importance.layers[i].first_row);
-            last_row_.push_back(plan.importance.layers[i].rows - 1);
+            add(rows_per_mm_, importance_.layers[i].rows_per_mm);
+            first_row_.push_back(importance_.layers[i].first_row);
+            last_row_.push_back(importance_.layers[i].rows - 1);
             after_.push_back(plan.foresees[i] ? foreseen : uncounted);
-            depth_top_.push_back(plan.depths.layers[i].top);
-            depth_first_.push_back(plan.depths.layers[i].first);
-            depth_last_.push_back(plan.depths.layers[i].last);
-            depth_slot_.push_back(plan.depths.layers[i].slot);
         }
         std::memset(&lanes_, 0, sizeof lanes_);
         seed(lanes_, seeds);
@@ -113,7 +80,7 @@ public:
         SlabBestSums sums;
         // Depths are met by all.
         const std::size_t flush_steps =
-            std::max(kFlushSteps, 2 * std::min({slots_, angle_flux_.size() / sides, depth_flux_.size()}));
+            std::max(kFlushSteps, 2 * std::min({slots_, angle_flux_.size() / sides, depths_.weights.size()}));
         std::size_t steps = 0;
         while (const int alive = refill()) {
             sums.steps += static_cast<std::uint64_t>(alive);
@@ -142,7 +109,7 @@ public:
         const auto transmitted_a = angle_flux_.begin() + static_cast<std::ptrdiff_t>(plan_.layout.angles());
         sums.reflected_a.assign(angle_flux_.begin(), transmitted_a);
         sums.transmitted_a.assign(transmitted_a, angle_flux_.end());
-        sums.collided = depth_flux_;
+        sums.collided = depths_.weights;
         sums.collisions = collisions_;
         return sums;
     }
@@ -158,45 +125,12 @@ private:
         return hn::Set(Int(), list[0]);
     }
 
-    HWY_INLINE SlabBestPack load(std::size_t at) const {
-        const Float d;
-        const Int di;
-        const Word dw;
-        return {hn::Load(d, lanes_.x + at),
-                hn::Load(d, lanes_.y + at),
-                hn::Load(d, lanes_.z + at),
-                {hn::Load(d, lanes_.u + at), hn::Load(d, lanes_.v + at), hn::Load(d, lanes_.w + at)},
-                hn::Load(d, lanes_.weight + at),
-                hn::Load(di, lanes_.order + at),
-                hn::Load(di, lanes_.layer + at),
-                hn::Load(di, lanes_.flight + at),
-                {hn::Load(dw, lanes_.s0 + at / 2), hn::Load(dw, lanes_.s1 + at / 2)}};
-    }
-
-    HWY_INLINE void store(const SlabBestPack& pack, std::size_t at) {
-        const Float d;
-        const Int di;
-        const Word dw;
-        hn::Store(pack.x, d, lanes_.x + at);
-        hn::Store(pack.y, d, lanes_.y + at);
-        hn::Store(pack.z, d, lanes_.z + at);
-        hn::Store(pack.direction.u, d, lanes_.u + at);
-        hn::Store(pack.direction.v, d, lanes_.v + at);
-        hn::Store(pack.direction.w, d, lanes_.w + at);
-        hn::Store(pack.weight, d, lanes_.weight + at);
-        hn::Store(pack.order, di, lanes_.order + at);
-        hn::Store(pack.layer, di, lanes_.layer + at);
-        hn::Store(pack.flight, di, lanes_.flight + at);
-        hn::Store(pack.random.s0, dw, lanes_.s0 + at / 2);
-        hn::Store(pack.random.s1, dw, lanes_.s1 + at / 2);
-    }
-
     // The collision of each walk that stands at one, its flight to the next or to an interface, and whether what
     // follows is worth having.
     HWY_INLINE void advance(std::size_t at) {
         const Float d;
         const Int di;
-        SlabBestPack pack = load(at);
+        SlabBestPack pack = load(lanes_, at);
         const FloatV luck = fineUniform(pack.random.next());
         const FloatV s = signedUniform(pack.random.next());
         const Azimuth phi = azimuth(pack.random.next());
@@ -220,13 +154,15 @@ private:
         pack.direction.w = hn::IfThenElse(scatters, turned.w, pack.direction.w);
         pack.flight = hn::IfThenElse(scatters_i, after, pack.flight);
 
-        const FloatV length = hn::Mul(exponential(pack.random.next()), of(mfp_, pack.layer));
+        FloatV length = hn::Mul(exponential(pack.random.next()), of(mfp_, pack.layer));
+        if (!lead_.empty()) length = hn::Div(length, ledRate(pack));
         const FloatV x = hn::MulAdd(length, pack.direction.u, pack.x);
         const FloatV y = hn::MulAdd(length, pack.direction.v, pack.y);
         const FloatV z = hn::MulAdd(length, pack.direction.w, pack.z);
         const FloatM crosses = hn::Or(hn::Lt(z, hn::Zero(d)), hn::Gt(z, of(thickness_, pack.layer)));
         const FloatM arrives = hn::Not(crosses);
         const hn::Mask<Int> arrives_i = hn::RebindMask(di, arrives);
+        if (!lead_.empty()) repay(pack, z, crosses);
         countCollision(pack, z, arrives, at);
         pack.weight = hn::IfThenElse(arrives, hn::Mul(pack.weight, of(albedo_, pack.layer)), pack.weight);
         const IntV order = hn::Min(hn::Add(pack.order, hn::Set(di, 1)), hn::Set(di, kEndlessWalk));
@@ -247,24 +183,33 @@ private:
         const FloatM lives = hn::Lt(luck, value);
         pack.weight =
             hn::IfThenElse(low, hn::IfThenElseZero(lives, hn::Div(hn::Set(d, 1.0f), importance)), pack.weight);
-        store(pack, at);
+        store(pack, lanes_, at);
         hn::Store(value, d, lanes_.value + at);
         collisions_ += hn::CountTrue(d, hn::And(arrives, hn::Gt(pack.weight, hn::Zero(d))));
         free_ |= bitsOf(hn::AndNot(lives, low), at);
         split_ |= bitsOf(hn::Gt(value, hn::Set(d, kSplit)), at);
     }
 
+    // At which flights that are led end, for each of the medium.
+    HWY_INLINE FloatV ledRate(const SlabBestPack& pack) const {
+        return hn::NegMulAdd(of(lead_, pack.layer), pack.direction.w, hn::Set(Float(), 1.0f));
+    }
+
+    // What a flight to depth z, or to an interface, weighs for having been led.
+    HWY_INLINE void repay(SlabBestPack& pack, FloatV z, FloatM crosses) const {
+        const Float d;
+        const FloatM rises = hn::Lt(pack.direction.w, hn::Zero(d));
+        const FloatV interface = hn::IfThenZeroElse(rises, of(thickness_, pack.layer));
+        const FloatV depth = hn::Sub(hn::IfThenElse(crosses, interface, z), pack.z);
+        const FloatV exponent = hn::Mul(of(lead_, pack.layer), hn::Div(depth, of(mfp_, pack.layer)));
+        const FloatV falls = expNegative(hn::Max(exponent, hn::Set(d, -87.0f)));
+        pack.weight = hn::Mul(pack.weight, hn::IfThenElse(crosses, falls, hn::Div(falls, ledRate(pack))));
+    }
+
     // Of every collision but the first, which is known.
     HWY_INLINE void countCollision(const SlabBestPack& pack, FloatV z, FloatM arrives, std::size_t at) {
-        const Float d;
-        const Int di;
-        const FloatM counts = hn::And(arrives, hn::RebindMask(d, hn::Gt(pack.order, hn::Zero(di))));
-        const FloatV place = hn::MulAdd(z, hn::Set(d, plan_.depths.per_mm), of(depth_top_, pack.layer));
-        // Of floats, so that the conversion stays defined.
-        const FloatV bin = hn::Min(hn::Max(place, of(depth_first_, pack.layer)), of(depth_last_, pack.layer));
-        const IntV slot = hn::Add(hn::ConvertTo(di, bin), of(depth_slot_, pack.layer));
-        addToLanes(depth_sums_.data(), at, hn::IfThenElseZero(hn::RebindMask(di, counts), slot),
-                   hn::IfThenElseZero(counts, pack.weight));
+        const FloatM counts = hn::And(arrives, hn::RebindMask(Float(), hn::Gt(pack.order, hn::Zero(Int()))));
+        depths_.add(at, depths_.slotAt(z, pack.layer), counts, pack.weight);
     }
 
     // Tallies what leaves on one side; `depth`: to the end of the layer there.
@@ -371,7 +316,7 @@ private:
     HWY_INLINE FloatV importanceOf(const SlabBestPack& pack) const {
         const Float d;
         const Int di;
-        const FloatV offset = hn::Set(d, plan_.importance.offset);
+        const FloatV offset = hn::Set(d, importance_.offset);
         const FloatV square = hn::MulAdd(pack.x, pack.x, hn::MulAdd(pack.y, pack.y, offset));
         const IntV column =
             logarithmicCell<SlabImportance::kMantissaBits>(square, offset, SlabImportance::kColumns - 1);
@@ -380,7 +325,7 @@ private:
         const FloatV place = hn::Min(hn::Mul(pack.z, of(rows_per_mm_, pack.layer)), hn::Set(d, 1e6f));
         const IntV row = hn::Add(of(first_row_, pack.layer), hn::Min(hn::ConvertTo(di, place), last));
         const IntV index = hn::Add(hn::Mul(row, hn::Set(di, SlabImportance::kColumns)), column);
-        return faded(hn::GatherIndex(d, plan_.importance.value.data(), index), pack.order);
+        return faded(hn::GatherIndex(d, importance_.value.data(), index), pack.order);
     }
 
     // Exits that no collision had foreseen.
@@ -400,7 +345,7 @@ private:
     HWY_NOINLINE void flush() {
         emptyCopies(histogram_, stride_, flux_.data(), flux_.size());
         emptyLanes(angle_sums_, angle_flux_);
-        emptyLanes(depth_sums_, depth_flux_);
+        depths_.flush();
     }
 
     HWY_NOINLINE void splitWalks() {
@@ -462,22 +407,23 @@ private:
     }
 
     const SlabBestPlan& plan_;
-    std::uint64_t waiting_;  // walks not yet started
+    const SlabImportance& importance_;
+    std::vector<float> lead_;  // per layer; empty: walks are not led
+    std::uint64_t waiting_;    // walks not yet started
     std::size_t slots_, stride_;
     std::vector<float> histogram_;   // per way and lane: reflected once, more often, transmitted
     std::vector<double> flux_;       // the same
     std::vector<float> angle_sums_;  // per side and angle: kCopies
     std::vector<double> angle_flux_;
-    std::vector<float> depth_sums_;  // per slot of depth: kCopies
-    std::vector<double> depth_flux_;
+    LaneDepths depths_;
     std::int32_t last_;  // layer
     bool has_below_;
     SlabWays ways_[sides];
     std::size_t way_ = SlabWays::kCount - kLanes / kCopies;  // of the first lanes
     // Per layer.
-    std::vector<float> mfp_, thickness_, albedo_, g_, half_qq_, rows_per_mm_, depth_top_, depth_first_, depth_last_;
+    std::vector<float> mfp_, thickness_, albedo_, g_, half_qq_, rows_per_mm_;
     std::vector<float> eta_;  // downwards, upwards
-    std::vector<std::int32_t> first_row_, last_row_, after_, depth_slot_;
+    std::vector<std::int32_t> first_row_, last_row_, after_;
     std::uint64_t collisions_ = 0;
     std::uint64_t free_ = ~std::uint64_t{0}, split_ = 0;  // one bit a lane
     std::vector<SlabWaiting> bank_;
@@ -491,17 +437,18 @@ private:
 };
 
 template <bool kIsotropic, bool kLayered>
-SlabBestSums slabBestAs(const SlabBestPlan& plan, SplitMix64 seeds, std::uint64_t walks) {
-    return std::make_unique<SlabBestWalker<kIsotropic, kLayered>>(plan, seeds, walks)->run();
+SlabBestSums slabBestAs(const SlabBestPlan& plan, SplitMix64 seeds, std::uint64_t walks, const SlabLead* lead) {
+    return std::make_unique<SlabBestWalker<kIsotropic, kLayered>>(plan, seeds, walks, lead)->run();
 }
 
 }  // namespace
 
-SlabBestSums slabBestChunk(const SlabBestPlan& plan, SplitMix64 seeds, std::uint64_t walks) {
+SlabBestSums slabBestChunk(const SlabBestPlan& plan, SplitMix64 seeds, std::uint64_t walks, const SlabLead* lead) {
     const std::vector<SlabWalk::Layer>& layers = plan.walk.layers;
     const bool isotropic = std::ranges::all_of(layers, [](const SlabWalk::Layer& layer) { return layer.g == 0; });
-    if (layers.size() > 1) return (isotropic ? slabBestAs<true, true> : slabBestAs<false, true>)(plan, seeds, walks);
-    return (isotropic ? slabBestAs<true, false> : slabBestAs<false, false>)(plan, seeds, walks);
+    if (layers.size() > 1)
+        return (isotropic ? slabBestAs<true, true> : slabBestAs<false, true>)(plan, seeds, walks, lead);
+    return (isotropic ? slabBestAs<true, false> : slabBestAs<false, false>)(plan, seeds, walks, lead);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -513,8 +460,9 @@ namespace searchlight {
 
 HWY_EXPORT(slabBestChunk);
 
-SlabBestSums walkForeseeingSlabChunk(const SlabBestPlan& plan, SplitMix64 seeds, std::uint64_t walks) {
-    return HWY_DYNAMIC_DISPATCH(slabBestChunk)(plan, seeds, walks);
+SlabBestSums walkForeseeingSlabChunk(const SlabBestPlan& plan, SplitMix64 seeds, std::uint64_t walks,
+                                     const SlabLead* lead) {
+    return HWY_DYNAMIC_DISPATCH(slabBestChunk)(plan, seeds, walks, lead);
 }
 
 }  // namespace searchlight

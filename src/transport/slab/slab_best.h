@@ -11,6 +11,8 @@
 #include "transport/slab/slab_control.h"
 #include "transport/slab/slab_depths.h"
 #include "transport/slab/slab_importance.h"
+#include "transport/slab/slab_lead.h"
+#include "transport/slab/slab_mix.h"
 #include "transport/slab/slab_pilot.h"
 #include "transport/slab/slab_single.h"
 #include "transport/slab/slab_tally.h"
@@ -52,20 +54,29 @@ struct SlabBestPlan {
     std::vector<char> foresees;  ///< per layer: its collisions tally expected escapes; otherwise what leaves the slab
 
     bool absorbs = false;
-    /// A pilot found that R(r) is known better than by analogue walks in the same time; otherwise these and their
-    /// controls are all.
-    bool worthwhile = false;
-    /// Analogue walks for each walk that foresees, and their part in each run.
-    double beside = 0;
-    bool places = false;  ///< they have a part in R(r) and T(r); otherwise they know depths alone
-    std::array<double, SlabLayout::runs> part{};
+    double controlled = 1;  ///< where analogue walks are alone: those that tell controls
+    SlabMix mix;
     /// Of what R, T, A and unscattered light lack of the whole: the parts that R, T and A get, 1 in sum.
     std::array<double, 3> missing{};
     SlabShape shape;
+    /// Through an opaque slab T, T(r) and T(angle) come from walks that are led, and A(z) where it is deep.
+    std::optional<SlabLead> lead;
+
+private:
+    bool isotropic() const;
+    double controlTime() const;
+    double analogueTime() const;
+    double besideTime(bool places) const;
+    double foreseeingTime(std::uint64_t steps) const;
+    void planShape(const std::vector<SlabBestSums>& chunks, double time);
+    SlabKnowledge knowledgeOf(const BatchRatios& best, double time) const;
+    void copyParts();
+    void planLead(double time);
 };
 
-/// The walks with expected escape and importance alone.
-SlabBestSums walkForeseeingSlabChunk(const SlabBestPlan& plan, SplitMix64 seeds, std::uint64_t walks);
+/// The walks with expected escape and importance alone; led through the slab, or null.
+SlabBestSums walkForeseeingSlabChunk(const SlabBestPlan& plan, SplitMix64 seeds, std::uint64_t walks,
+                                     const SlabLead* lead = nullptr);
 
 /// As walkSlabChunk; the tally must have the plan's layout.
 std::uint64_t walkSlabBestChunk(const SlabBestPlan& plan, std::uint64_t seed, std::uint64_t chunk, std::uint64_t walks,

@@ -66,6 +66,7 @@ std::vector<double> fluxOf(const SlabBestPlan& plan, SlabBestSums found, double 
     std::vector<double> flux(layout.slots());
     const auto at = [&](SlabLayout::Run run, std::size_t i = 0) -> double& { return flux[layout.first(run) + i]; };
     const auto level = [&](std::vector<double>& list, const std::vector<double>& parts, SlabLayout::Run run) {
+        if (better.empty()) return;
         const double surplus = sumOf(list) - better[layout.first(run)];
         for (std::size_t i = 0; i < list.size(); ++i) list[i] -= surplus * parts[i];
     };
@@ -78,7 +79,7 @@ std::vector<double> fluxOf(const SlabBestPlan& plan, SlabBestSums found, double 
         double weight = found.collided[i];
         at(SlabLayout::A_total) += weight * layer.absorbed;
         at(SlabLayout::A_layer, index) += weight * layer.absorbed;
-        if (layer.absorbed > 0)
+        if (layer.absorbed > 0 && !better.empty())
             weight -= plan.shape.collided[i] *
                       (collided[index] - better[layout.first(SlabLayout::A_layer) + index] / layer.absorbed);
         at(SlabLayout::A_z, depth) += weight * layer.absorbed;

@@ -14,7 +14,7 @@ void addKnown(const SlabBestPlan& plan, double walks, SlabBestSums& found);
 SlabShape shapeOf(const SlabBestPlan& plan, const std::vector<SlabBestSums>& all);
 
 /// What `walks` walks found, in the slots of the plan's layout. better: the same from other walks that know R, T and
-/// absorption in the layers better; to these the series are levelled.
+/// absorption in the layers better; to these the series are levelled, unless it is empty.
 std::vector<double> fluxOf(const SlabBestPlan& plan, SlabBestSums found, double walks,
                            const std::vector<double>& better);
 

@@ -6,6 +6,8 @@
 #include <optional>
 #include <utility>
 
+#include "transport/walk/diffusion.h"
+
 namespace searchlight {
 
 namespace {
@@ -95,18 +97,9 @@ std::optional<SlabControl::Layer> solve(const SlabWalk& walk, std::size_t index)
     for (std::size_t l = 2; l < kMoments; ++l)
         if (std::abs(term(l)) > kCut) terms = l / 2 * 2 + 2;
     if (terms > kMostTerms) return {};
-    // Legendre's polynomials by their recurrence, as powers of w.
-    std::vector<double> before(terms), legendre(terms), powers(terms);
-    legendre[0] = 1;
-    for (std::size_t l = 0; l < terms; ++l) {
-        const double n = static_cast<double>(l);
-        std::vector<double> next(terms);
-        for (std::size_t i = 0; i < terms; ++i) {
-            powers[i] += term(l) * legendre[i];
-            next[i] = ((i > 0 ? (2 * n + 1) * legendre[i - 1] : 0) - n * before[i]) / (n + 1);
-        }
-        before = std::exchange(legendre, next);
-    }
+    std::vector<double> series;
+    for (std::size_t l = 0; l < terms; ++l) series.push_back(term(l));
+    const std::vector<double> powers = powersOfLegendre(series);
     for (std::size_t i = 0; i < terms; i += 2) {
         layer.even.push_back(powers[i]);
         layer.odd.push_back(powers[i + 1] / -layer.kappa);

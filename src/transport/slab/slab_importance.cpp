@@ -4,6 +4,8 @@
 #include <bit>
 #include <cmath>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "transport/walk/diffusion.h"
 
@@ -42,7 +44,7 @@ struct MeanSlab {
     double ring(double r, double rho, double z, bool top) const {
         const double near = top ? above : below, far = top ? below : above;
         const double depth = std::min((top ? z : thickness - z) + kDepth, thickness + 0.5 * far);
-        constexpr int azimuths = 6;
+        constexpr int azimuths = 4;
         double sum = 0;
         for (int i = 0; i < azimuths; ++i) {
             const double c = std::cos((i + 0.5) * std::numbers::pi / azimuths);
@@ -76,11 +78,20 @@ MeanSlab meanOf(const SlabWalk& walk) {
 
 }  // namespace
 
+double decayPerMfp(const SlabWalk::Layer& layer) {
+    const double reduced = 1 - layer.g * (1 - layer.absorbed);
+    return reduced * asymptoticDecay(std::min(1.0, layer.absorbed / reduced));
+}
+
+bool isOpaque(const SlabWalk& walk) {
+    constexpr double opaque = 8;
+    const MeanSlab mean = meanOf(walk);
+    return !(mean.thickness * std::max(mean.decay, 0.01) < opaque);
+}
+
 SlabImportance makeSlabImportance(const SlabWalk& walk, std::span<const double> edges) {
     const MeanSlab mean = meanOf(walk);
-    // Through a slab so thick that hardly anything arrives below, no walk is led there.
-    constexpr double opaque = 8;
-    const bool through = mean.thickness * std::max(mean.decay, 0.01) < opaque;
+    const bool through = !isOpaque(walk);
 
     // Walks that are led through a thick slab are long. This leaves as much time for those that come back.
     const double part_below = 1 / (1 + 0.25 * mean.thickness);
@@ -128,9 +139,22 @@ SlabImportance makeSlabImportance(const SlabWalk& walk, std::span<const double> 
         rows.first_row = static_cast<std::int32_t>(table.value.size()) / SlabImportance::kColumns;
         rows.rows = static_cast<std::int32_t>(std::clamp(4 * depth, 1.0, 40.0));
         rows.rows_per_mm = depth > 0 ? static_cast<float>(rows.rows * rate / depth) : 0;
-        for (int i = 0; i < rows.rows; ++i)
-            for (const double rho : columns)
-                table.value.push_back(importance(top + depth * (i + 0.5) / rows.rows, rho));
+        // Every second row from diffusion, those between from their neighbours.
+        const auto row = [&](int i) {
+            std::vector<float> values;
+            for (const double rho : columns) values.push_back(importance(top + depth * (i + 0.5) / rows.rows, rho));
+            return values;
+        };
+        std::vector<float> above, below = row(0);
+        for (int i = 0; i < rows.rows; ++i) {
+            if (i % 2 == 0) {
+                above = std::exchange(below, {});
+                table.value.insert(table.value.end(), above.begin(), above.end());
+                if (i + 1 < rows.rows) below = row(std::min(i + 2, rows.rows - 1));
+                continue;
+            }
+            for (std::size_t k = 0; k < above.size(); ++k) table.value.push_back(std::sqrt(above[k] * below[k]));
+        }
         top += depth;
     }
     return table;

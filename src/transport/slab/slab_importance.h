@@ -24,6 +24,12 @@ struct SlabImportance {
     std::vector<float> value;  ///< row by row
 };
 
+/// Rate at which light dies out in a layer, per mean free path.
+double decayPerMfp(const SlabWalk::Layer& layer);
+
+/// Whether a slab is so thick, counted in the decay of its light, that this importance leads no walk through it.
+bool isOpaque(const SlabWalk& walk);
+
 /// For annuli with these edges, mm.
 SlabImportance makeSlabImportance(const SlabWalk& walk, std::span<const double> edges);
 

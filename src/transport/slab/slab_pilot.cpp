@@ -42,11 +42,12 @@ SlabPilot::SlabPilot(const SlabWalk& walk, const SlabControl& control, const Sla
                                   static_cast<Eigen::Index>(layout.first(SlabLayout::A_total))};
     std::vector<std::size_t> met(layout.slots());
     std::size_t chunks = 0;
-    std::uint64_t all_steps = 0;
+    std::uint64_t all_steps = 0, all_crossings = 0;
     for (; chunks < most && (chunks < kFewestChunks || all_steps < kMostSteps); ++chunks) {
         SlabTally tally(layout);
         std::vector<double> sums(SlabControl::kSums * control.layers.size());
-        all_steps += walkSlabDepthsChunk(walk, kPilotSeed, chunks, kChunkWalks, tally, control, sums, depths);
+        all_steps +=
+            walkSlabDepthsChunk(walk, kPilotSeed, chunks, kChunkWalks, tally, control, sums, depths, &all_crossings);
         const std::span<const double> flux = tally.flux();
         const std::vector<double> list =
             control.controls(sums, flux[layout.first(SlabLayout::R_unscattered)],
@@ -68,6 +69,7 @@ SlabPilot::SlabPilot(const SlabWalk& walk, const SlabControl& control, const Sla
     }
     const double n = static_cast<double>(chunks), per_chunk = static_cast<double>(kChunkWalks);
     steps = static_cast<double>(all_steps) / (n * per_chunk);
+    crossings = static_cast<double>(all_crossings) / (n * per_chunk);
     // About the means of the fluxes; those of the controls are known: they are 0.
     for (Eigen::Index slot = 0; slot < slots; ++slot) xy.col(slot) -= (y[slot] / n) * x;
     for (std::size_t slot = 0; slot < layout.slots(); ++slot) {
@@ -139,6 +141,45 @@ void SlabPilot::correct(const SlabControl& control, std::span<const double> sums
     };
     for (const SlabLayout::Run run : kTotals) take(run);
     for (const SlabLayout::Run run : kSeries) take(run);
+}
+
+void SlabPilot::join(const SlabControl& control, double walks, std::vector<double> others, double other_walks,
+                     const SlabLayout& of, std::span<double> flux) const {
+    const double n = walks + other_walks;
+    // How much light stays unscattered is known: what more or less of it the others found, is not or is scattered.
+    const double surplus = others[of.first(SlabLayout::R_unscattered)] + others[of.first(SlabLayout::T_unscattered)] -
+                           other_walks * (control.unscattered.R + control.unscattered.T);
+    const double scattered = mean[layout.first(SlabLayout::R_scattered)] + mean[layout.first(SlabLayout::T_scattered)] +
+                             mean[layout.first(SlabLayout::A_total)];
+    for (const SlabLayout::Run run : kTotals)
+        for (std::size_t i = 0; scattered > 0 && i < layout.size(run); ++i)
+            others[of.first(run) + i] += surplus * mean[layout.first(run) + i] / scattered;
+    std::vector<char> joined(flux.size());
+    // Variance of a walk that tells controls over that of one that does not.
+    const auto quotient = [&](std::size_t known) {
+        return slopes[known].empty() || !(variance[known] > 0) ? 1 : variance[known] / analogue_variance[known];
+    };
+    const auto mix = [&](SlabLayout::Run run, double least) {
+        for (std::size_t i = 0; i < layout.size(run); ++i) {
+            const std::size_t known = layout.first(run) + i, slot = of.first(run) + i;
+            if (slopes[known].empty()) continue;
+            const double a = walks / std::max(least, quotient(known));
+            flux[slot] = n * (a * flux[slot] / walks + others[slot]) / (a + other_walks);
+            joined[slot] = 1;
+        }
+    };
+    // Sums of these are the whole: all have the same part, that of the one which gains least.
+    constexpr SlabLayout::Run ends[] = {SlabLayout::R_scattered, SlabLayout::T_scattered, SlabLayout::A_total};
+    double least = 0;
+    for (const SlabLayout::Run run : ends)
+        if (mean[layout.first(run)] > 0) least = std::max(least, quotient(layout.first(run)));
+    for (const SlabLayout::Run run : ends) mix(run, least);
+    for (const SlabLayout::Run run : {SlabLayout::R_single, SlabLayout::A_layer}) mix(run, 0);
+    for (const SlabLayout::Run run : kSeries) mix(run, 0);
+    for (std::size_t slot = 0; slot < flux.size(); ++slot)
+        if (!joined[slot]) flux[slot] += others[slot];
+    flux[of.first(SlabLayout::R_unscattered)] = n * control.unscattered.R;
+    flux[of.first(SlabLayout::T_unscattered)] = n * control.unscattered.T;
 }
 
 std::vector<double> SlabPilot::spread(std::span<const double> flux, const SlabLayout& to) const {

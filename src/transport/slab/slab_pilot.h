@@ -24,13 +24,16 @@ struct SlabPilot {
     std::vector<double> analogue_variance;    ///< without that
     /// Of R, T and A, per walk; of what is corrected.
     std::array<std::array<double, 3>, 3> covariance{};
-    std::array<bool, 3> often{};  ///< whether R, T and A were met often enough to learn from
-    double steps = 0;             ///< per walk
+    std::array<bool, 3> often{};      ///< whether R, T and A were met often enough to learn from
+    double steps = 0, crossings = 0;  ///< collisions and meetings with interfaces, per walk
 
     /// Takes from slots of `flux`, which `walks` walks with the layout `of` and these sums found, what their controls
     /// say.
     void correct(const SlabControl& control, std::span<const double> sums, double walks, const SlabLayout& of,
                  std::span<double> flux) const;
+    /// Adds to `flux` of `walks` walks, corrected, that of others which tell no controls, each by what it knows.
+    void join(const SlabControl& control, double walks, std::vector<double> others, double other_walks,
+              const SlabLayout& of, std::span<double> flux) const;
     /// A flux with the pilot's layout, in that of walks to come.
     std::vector<double> spread(std::span<const double> flux, const SlabLayout& to) const;
 };

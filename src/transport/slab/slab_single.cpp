@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "transport/walk/decay.h"
 #include "transport/walk/fresnel.h"
 #include "transport/walk/quadrature.h"
 
@@ -59,19 +60,14 @@ private:
     bool up_;
 };
 
-// Integral of exp(-rate h) from 0 to h.
-double decayed(double rate, double h) {
-    if (rate * h < 1e-8) return h * (1 - 0.5 * rate * h);
-    return -std::expm1(-rate * h) / rate;
-}
-
 // What leaves along one direction, from so near to the side where it leaves: of light of the beam that came from there,
 // and of light that came towards it.
 struct Straight {
     double sine, lateral, towards, towards_rate, with, with_rate;
 
     double within(double h) const {
-        return towards * decayed(towards_rate, h) + (with > 0 ? with * decayed(with_rate, h) : 0);
+        const auto collide = [h](double rate) { return decayed(rate, std::exp(-rate * h), h); };
+        return towards * collide(towards_rate) + (with > 0 ? with * collide(with_rate) : 0);
     }
 };
 
@@ -164,7 +160,8 @@ SlabSingle slabSingle(const SlabWalk& walk, std::span<const double> edges, const
                 const double sine = std::sqrt(one_minus_mu * (1 + mu));
                 const Way way = ways.at(sine);
                 const auto phase = [&](double cosine) {
-                    return 0.5 * (1 - g * g) / std::pow(1 + g * g - 2 * g * cosine, 1.5);
+                    const double q = 1 + g * g - 2 * g * cosine;
+                    return 0.5 * (1 - g * g) / (q * std::sqrt(q));
                 };
                 const double weight = (1 - layer.absorbed) * per_mm * way.passes * std::exp(-way.tau) * dmu;
                 const double towards = weight * against * phase(-mu), with = weight * along * through * phase(mu);

@@ -46,10 +46,10 @@ std::uint64_t walkSlabChunk(const SlabWalk& walk, std::uint64_t seed, std::uint6
                             SlabTally& tally, const SlabControl& control, std::span<double> sums);
 
 /// The same without places on the surfaces, in less time: walks that know their depth alone, all of whose collisions
-/// count. The tally's layout has one annulus.
+/// count. The tally's layout has one annulus. crossings: null, or to this is added how often walks met an interface.
 std::uint64_t walkSlabDepthsChunk(const SlabWalk& walk, std::uint64_t seed, std::uint64_t chunk, std::uint64_t walks,
                                   SlabTally& tally, const SlabControl& control, std::span<double> sums,
-                                  const SlabDepths& depths);
+                                  const SlabDepths& depths, std::uint64_t* crossings = nullptr);
 
 /// The instruction set that walkSlabChunk uses: "AVX3", "AVX2", "SSE4"...
 const char* slabInstructionSet();

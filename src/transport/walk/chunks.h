@@ -19,13 +19,24 @@
 
 namespace searchlight {
 
-/// Walks cut into chunks of one size, of which the last may have fewer.
+/// Walks cut into chunks of one size, of which the last may have fewer. Before them may stand chunks of another size
+/// that were walked by an earlier run.
 struct ChunkPlan {
     std::uint64_t walks = 0;
     std::uint64_t size = 1;
+    std::uint64_t chunks_before = 0, walks_before = 0;
 
-    std::uint64_t chunks() const { return (walks + size - 1) / size; }
-    std::uint64_t walksOf(std::uint64_t chunk) const { return std::min(size, walks - chunk * size); }
+    std::uint64_t chunks() const {
+        return chunks_before + (walks > walks_before ? (walks - walks_before + size - 1) / size : 0);
+    }
+    /// Number of the first walk of a chunk.
+    std::uint64_t firstOf(std::uint64_t chunk) const { return walks_before + (chunk - chunks_before) * size; }
+    std::uint64_t walksOf(std::uint64_t chunk) const { return std::min(size, walks - firstOf(chunk)); }
+
+    /// The plan of a walk that goes on from a state, if there is one. It keeps the size of the chunks, so that an
+    /// interruption leaves no trace, unless its own are at least twice as large: then a small first run does not slow
+    /// down what follows, and at least 32 of these chunks are to come.
+    ChunkPlan goingOn(const WalkState* state) const;
 };
 
 /// At least 64 chunks where there are as many walks, of at most 65,536 walks each, or 4,096 where they may stop early.
@@ -53,6 +64,9 @@ struct ChunkedResult {
 /// Whether `enough` is asked after so many chunks.
 bool isMilestone(std::uint64_t chunks);
 
+/// Threads of the process that has the most: blocks are the same for all, whose machines may differ.
+std::uint64_t mostThreads(const ChunkedWalk& job);
+
 /// Walks the chunks. `walk(chunk, walks, tally)` fills a fresh copy of `empty` and returns the number of collisions;
 /// `add(tally, walks, sums)` takes its sums. A Tally has pack(), a list of doubles, and unpack(), its inverse, to be
 /// sent between processes. Throws interruptedError() when cancelled without a state to leave the sums in.
@@ -65,21 +79,27 @@ ChunkedResult walkChunks(const ChunkedWalk& job, std::vector<BatchRatios> sums, 
     std::uint64_t next = 0;
     if (state && !state->empty()) {
         const auto fits = [](const BatchRatios& a, const BatchRatios& b) { return a.packedSize() == b.packedSize(); };
-        if (!std::ranges::equal(sums, state->sums, fits)) throw inputError("the saved walks have other tallies");
+        if (!std::ranges::equal(sums, state->sums, fits))
+            throw inputError("the saved walks have other tallies").at(job.control.file);
         sums = state->sums;
         next = state->chunks;
         result.collisions = state->collisions;
         result.seconds = state->seconds;
-        result.walks = next * state->chunk_size;
+        result.walks = state->walks;
     }
     // Blocks bound the memory; within a block threads take chunks as they come, and sums run in chunk order.
     const auto ranks = static_cast<std::uint64_t>(job.control.share ? rankCount() : 1);
     const auto own = static_cast<std::uint64_t>(job.control.share ? rank() : 0);
-    const auto threads = static_cast<std::uint64_t>(job.threads > 0 ? job.threads : hardwareThreads());
-    const std::uint64_t block = 4 * threads;
+    const std::uint64_t block = 4 * mostThreads(job);
     const auto begin = std::chrono::steady_clock::now();
     auto saved = begin;
     const double seconds_before = result.seconds;
+    const std::uint64_t size_before = state ? state->chunk_size : 0;
+    const auto stateOf = [&] {
+        const std::uint64_t size = next > plan.chunks_before || next == 0 ? plan.size : size_before;
+        const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+        return WalkState{size, next, result.walks, result.collisions, seconds_before + seconds, sums};
+    };
     std::optional<WalkState> whole;  // before a last chunk that is not whole
     bool done = job.enough && isMilestone(next) && job.enough(sums, result.walks);
     std::atomic<std::uint64_t> walked = result.walks;
@@ -126,7 +146,7 @@ ChunkedResult walkChunks(const ChunkedWalk& job, std::vector<BatchRatios> sums, 
                 break;
             }
             const std::uint64_t walks = plan.walksOf(next);
-            if (walks < plan.size) whole = WalkState{plan.size, next, result.collisions, 0, sums};
+            if (walks < plan.size) whole = stateOf();
             add(*slot.tally, walks, sums);
             result.collisions += slot.collisions;
             result.walks += walks;
@@ -139,14 +159,14 @@ ChunkedResult walkChunks(const ChunkedWalk& job, std::vector<BatchRatios> sums, 
         }
         const auto now = std::chrono::steady_clock::now();
         if (job.control.save && !whole && now - saved > std::chrono::minutes(1)) {
-            job.control.save({plan.size, next, result.collisions, seconds_before, sums});
+            job.control.save(stateOf());
             saved = now;
         }
     }
     result.seconds = seconds_before + std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     if (result.interrupted && !state) throw interruptedError();
     if (state) {
-        *state = whole ? std::move(*whole) : WalkState{plan.size, next, result.collisions, 0, sums};
+        *state = whole ? std::move(*whole) : stateOf();
         state->seconds = result.seconds;
     }
     result.sums = std::move(sums);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "transport/walk/fresnel.h"
 
@@ -27,6 +28,22 @@ double extrapolation(double eta) {
         second += 3 * reflected * c * c / points;
     }
     return 2.0 / 3 * (1 + second) / (1 - first);
+}
+
+std::vector<double> powersOfLegendre(std::span<const double> coefficients) {
+    const std::size_t terms = coefficients.size();
+    std::vector<double> before(terms), legendre(terms), powers(terms);
+    if (terms > 0) legendre[0] = 1;
+    for (std::size_t l = 0; l < terms; ++l) {
+        const double n = static_cast<double>(l);
+        std::vector<double> next(terms);
+        for (std::size_t i = 0; i < terms; ++i) {
+            powers[i] += coefficients[l] * legendre[i];
+            next[i] = ((i > 0 ? (2 * n + 1) * legendre[i - 1] : 0) - n * before[i]) / (n + 1);
+        }
+        before = std::exchange(legendre, next);
+    }
+    return powers;
 }
 
 }  // namespace searchlight

@@ -30,7 +30,7 @@ constexpr float kSplit = 2.0f;
 constexpr float kMostParts = 16;
 static_assert(kSplit >= 2, "a split makes at least two parts");
 
-/// exp(-x) for x in [0, 87], relative error 2e-7; constant beyond.
+/// exp(-x) for x in [-87, 87], relative error 2e-7; constant beyond.
 HWY_INLINE FloatV expNegative(FloatV x) {
     const Float d;
     const FloatV y = hn::Neg(hn::Min(x, hn::Set(d, 87.0f)));
