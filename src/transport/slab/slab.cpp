@@ -208,7 +208,9 @@ private:
         double least = one_event / static_cast<double>(walks_);
         const double led = best_ != nullptr && best_->lead ? best_->lead->event[slot] : 0;
         if (led > 0) least = led / static_cast<double>(walks_);
-        if (led > 0 || (best_ != nullptr && best_->mix.foresees))
+        // Counted alone, one event is still the least.
+        const bool foreseen = best_ != nullptr && best_->mix.foresees && best_->mix.part[slot] < 1;
+        if (led > 0 || foreseen)
             // Where less than a thousandth of an exit was foreseen, what leaves may come by ways that no walk took.
             least = e.mean < 1e-3 * least ? least : 0;
         e.standard_error = std::max(e.standard_error, least);

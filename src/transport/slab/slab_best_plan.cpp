@@ -35,6 +35,8 @@ constexpr double kControlPart = 0.02;
 constexpr double kUnseen = 1.5;
 // What series are levelled to is known by analogue walks with this part of the time, at least.
 constexpr double kLeastBeside = 0.4;
+// What absorbs less is known better by walks that are led.
+constexpr double kRare = 0.01;
 // Part of the time for walks that are led: what they know, others hardly know at all.
 constexpr double kLedPart = 0.1;
 
@@ -81,8 +83,8 @@ std::array<double, 3> partsOfMissing(const SlabPilot& pilot, const Covariance& c
     }
     const double up = pilot.mean[pilot.layout.first(SlabLayout::R_scattered)];
     const double down = pilot.mean[pilot.layout.first(SlabLayout::T_scattered)];
-    const double part = up + down > 0 ? up / (up + down) : 0.5;
-    return {part, 1 - part, 0};
+    if (!(up + down > 0)) return {0, 0, 1};
+    return {up / (up + down), down / (up + down), 0};
 }
 
 }  // namespace
@@ -98,10 +100,12 @@ SlabBestPlan::SlabBestPlan(const SlabWalk& slab, std::span<const double> edges, 
         foresees.push_back(layer.g <= kMostForesight);
         absorbs |= layer.absorbed > 0;
     }
-    missing = partsOfMissing(pilot, pilot.covariance, {pilot.often[0], pilot.often[1], absorbs && pilot.often[2]});
+    const bool has_below = !std::isinf(slab.layers.back().thickness_mm);
+    missing = partsOfMissing(pilot, pilot.covariance,
+                             {pilot.often[0], has_below && pilot.often[1], absorbs && pilot.often[2]});
     if (const double part = controlTime() / analogueTime(); part > kControlPart) controlled = kControlPart / part;
     if (!canForesee(slab, tallied)) return;
-    const bool opaque = isOpaque(slab) && !std::isinf(slab.layers.back().thickness_mm);
+    const bool opaque = isOpaque(slab) && has_below;
     if (std::ranges::count(foresees, 1) == 0) {
         if (opaque) planLead(0);
         return;
@@ -138,7 +142,7 @@ SlabBestPlan::SlabBestPlan(const SlabWalk& slab, std::span<const double> edges, 
                 const double a = mix.part[layout.first(kEnds[i])], b = mix.part[layout.first(kEnds[j])];
                 mixed[i][j] = a * b * pilot.covariance[i][j] / mix.beside + (1 - a) * (1 - b) * mixed[i][j];
             }
-        missing = partsOfMissing(pilot, mixed, {true, true, absorbs});
+        missing = partsOfMissing(pilot, mixed, {true, has_below, absorbs});
     }
     if (opaque) planLead(time);
 }
@@ -203,9 +207,10 @@ SlabKnowledge SlabBestPlan::knowledgeOf(const BatchRatios& best, double time) co
                             unknown(analogueTime())};
     std::vector<std::size_t> layer_at(layout.depths());
     for (auto slot = depths.slots.rbegin(); slot != depths.slots.rend(); ++slot) layer_at[slot->depth] = slot->layer;
+    // Not of A per layer: how heavy few walks deep down are no pilot knows, and controls know it well.
     for (const SlabLayout::Run run :
-         {SlabLayout::R_scattered, SlabLayout::R_single, SlabLayout::T_scattered, SlabLayout::A_total,
-          SlabLayout::A_layer, SlabLayout::R_r, SlabLayout::T_r, SlabLayout::R_a, SlabLayout::T_a, SlabLayout::A_z})
+         {SlabLayout::R_scattered, SlabLayout::R_single, SlabLayout::T_scattered, SlabLayout::A_total, SlabLayout::R_r,
+          SlabLayout::T_r, SlabLayout::R_a, SlabLayout::T_a, SlabLayout::A_z})
         for (std::size_t i = 0; i < layout.size(run); ++i) {
             const std::size_t slot = layout.first(run) + i;
             const Estimate flux = best.estimate(slot, kAllPilotWalks);
@@ -247,6 +252,8 @@ void SlabBestPlan::copyParts() {
         std::copy_n(part(from), layout.size(from), part(to));
     };
     copy(SlabLayout::A_z, SlabLayout::F_z);
+    // In one layer what little is absorbed is known where it is not deep.
+    if (walk.layers.size() == 1 && !pilot.often[2]) *part(SlabLayout::A_total) = 0;
     copy(SlabLayout::R_r, SlabLayout::R_r_multiple);
     // What analogue walks say of order 1 is of no use where nearly all of it is known, and of nothing where all is.
     if (!single || std::ranges::count(foresees, 0) > 0)
@@ -279,6 +286,15 @@ void SlabBestPlan::planLead(double time) {
     const double rest = missing[0] + missing[2];
     for (double& part : missing) part = rest > 0 ? part / rest : 0;
     if (!(rest > 0)) missing[absorbs ? 2 : 0] = 1;
+    for (std::size_t i = 0; i < layout.size(SlabLayout::A_layer); ++i) {
+        const std::size_t slot = layout.first(SlabLayout::A_layer) + i;
+        const Estimate flux = sums.estimate(slot, kAllPilotWalks);
+        if (!(flux.mean > 0 && flux.mean < kRare)) continue;
+        const double led = kUnseen * flux.standard_error * flux.standard_error * kAllPilotWalks / lead->share;
+        const double other = flux.mean / (mix.foresees ? mix.beside : 1);
+        lead->part[slot] = other / (other + led);
+        lead->event[slot] = flux.mean / lead->share;
+    }
     // What others know of a depth has at least the variance of counts.
     const double counts = mix.foresees ? mix.beside : 1;
     for (const SlabDepths::Slot& place : depths.slots) {

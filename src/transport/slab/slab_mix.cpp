@@ -117,7 +117,11 @@ SlabMix chooseMix(const SlabLayout& layout, const SlabKnowledge& knowledge) {
         }
     }
     if (!mix.foresees) return mix;
-    mix.part.assign(layout.slots(), 0.0);
+    // What a pilot hardly met is left to walks that count: these know how little they know.
+    mix.part.assign(layout.slots(), 1.0);
+    for (const SlabLayout::Run run :
+         {SlabLayout::R_r, SlabLayout::R_r_single, SlabLayout::R_r_multiple, SlabLayout::T_r})
+        std::fill_n(mix.part.begin() + static_cast<std::ptrdiff_t>(layout.first(run)), layout.size(run), 0.0);
     for (const Group& group : groups) {
         // The part that makes the variance of the mix least.
         const double variance = (mix.places ? group.over_place : group.over_depth) * mix.beside;
