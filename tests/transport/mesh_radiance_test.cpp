@@ -244,7 +244,7 @@ TEST(BodyRadiance, OfASmoothSphereIsThatOfManyFacets) {
             scene.lights = {DirectionalLight{.direction = {1, 2, 3}, .irradiance = {1, 1, 1}}};
         const LightSampler lights(scene, placeObject(scene));
         const CameraRays camera = farCamera({0, 0.6, 0.8}, 300, 2.2, 3);
-        const RadianceOptions options{.walks_per_pixel = 5'000};
+        const BodyRadianceOptions options{.walks_per_pixel = 5'000};
         const BodyRadiance smooth = walkRadiance(ball, medium, 0, &lights, camera, options, observer);
         const BodyRadiance facets = walkRadiance(mesh, medium, 0, &lights, camera, options, observer);
         for (std::size_t i = 0; i < smooth.radiance.size(); ++i) {

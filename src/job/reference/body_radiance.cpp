@@ -29,7 +29,7 @@ using RadianceChannels = std::array<std::optional<BodyRadiance>, 3>;
 template <class Body>
 RadianceChannels walkRadianceChannels(const Body& body, const BodySetup& setup, SavedWalks& saved, Observer& observer) {
     const CameraRays camera = raysOf(setup.view);
-    RadianceOptions options{
+    BodyRadianceOptions options{
         .seed = setup.walk.seed, .threads = setup.walk.threads, .large_steps = setup.walk.large_steps};
     const std::uint64_t pixels = camera.pixels();
     options.walks_per_pixel = std::max(std::uint64_t{1}, (setup.walk.walks + pixels / 2) / pixels);

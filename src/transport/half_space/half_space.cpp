@@ -1,5 +1,7 @@
 #include "transport/half_space/half_space.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -18,7 +20,7 @@ namespace searchlight {
 
 namespace {
 
-constexpr int kFinestGrid = 4096;
+constexpr int kFinestGrid = 2048;  // 4 million cells, of which a few per thread are in memory at once
 
 [[noreturn]] void reject(const char* what, double value, const char* valid) {
     throw inputError(std::string(what) + " is " + numberText(value), std::string(valid));
@@ -46,7 +48,8 @@ void check(const HalfSpaceOptions& options) {
     for (std::size_t i = 1; i < edges.size(); ++i)
         if (!(edges[i] > edges[i - 1] && edges[i] <= 1e9))
             reject("an edge", edges[i], "edges ascend and end at 1e9 mm");
-    if (options.grid < 0 || options.grid > kFinestGrid) reject("the grid", options.grid, "0 to 4096 cells a side");
+    if (options.grid < 0 || options.grid > kFinestGrid)
+        reject("the grid", options.grid, fmt::format("0 to {} cells a side", kFinestGrid).c_str());
     if (options.grid > 0 && !(options.grid_extent_mm > 0 && options.grid_extent_mm <= 1e9))
         reject("the extent of the grid", options.grid_extent_mm, "above 0, up to 1e9 mm");
     const std::vector<double>& strip = options.strip_edges_mm;

@@ -61,7 +61,7 @@ BodyRadiance resultOf(const ChunkedResult& walked, const CameraRays& camera) {
 
 template <class Beams, class Body>
 BodyRadiance walkAny(const Body& body, const Medium& medium, int channel, const Illumination& light,
-                     const CameraRays& camera, const RadianceOptions& options, Observer& observer) {
+                     const CameraRays& camera, const BodyRadianceOptions& options, Observer& observer) {
     checkMedium(medium);
     if (options.walks_per_pixel == 0) throw inputError("a reference needs at least one walk per pixel");
     if (!medium.scatters(channel)) throw inputError("the medium does not scatter in this channel");
@@ -116,12 +116,12 @@ BodyRadiance walkAny(const Body& body, const Medium& medium, int channel, const 
 }  // namespace
 
 BodyRadiance walkRadiance(const Ball& body, const Medium& medium, int channel, const Illumination& light,
-                          const CameraRays& camera, const RadianceOptions& options, Observer& observer) {
+                          const CameraRays& camera, const BodyRadianceOptions& options, Observer& observer) {
     return walkAny<SphereBeams>(body, medium, channel, light, camera, options, observer);
 }
 
 BodyRadiance walkRadiance(const MeshBody& body, const Medium& medium, int channel, const Illumination& light,
-                          const CameraRays& camera, const RadianceOptions& options, Observer& observer) {
+                          const CameraRays& camera, const BodyRadianceOptions& options, Observer& observer) {
     return walkAny<FacetBeams>(body, medium, channel, light, camera, options, observer);
 }
 

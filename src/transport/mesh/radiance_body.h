@@ -12,7 +12,7 @@
 
 namespace searchlight {
 
-struct RadianceOptions {
+struct BodyRadianceOptions {
     std::uint64_t walks_per_pixel = 64;
     std::uint64_t seed = 1;
     int threads = 0;          ///< 0: all
@@ -44,8 +44,8 @@ struct BodyRadiance {
 /// does not scatter and a mesh that crosses itself; interruptedError() when the observer cancels and the control has no
 /// state.
 BodyRadiance walkRadiance(const Ball& body, const Medium& medium, int channel, const Illumination& light,
-                          const CameraRays& camera, const RadianceOptions& options, Observer& observer);
+                          const CameraRays& camera, const BodyRadianceOptions& options, Observer& observer);
 BodyRadiance walkRadiance(const MeshBody& body, const Medium& medium, int channel, const Illumination& light,
-                          const CameraRays& camera, const RadianceOptions& options, Observer& observer);
+                          const CameraRays& camera, const BodyRadianceOptions& options, Observer& observer);
 
 }  // namespace searchlight
