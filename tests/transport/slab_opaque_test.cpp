@@ -5,7 +5,7 @@
 #include <string>
 
 #include "judge.h"
-#include "transport/exact/ordinate_slab.h"
+#include "transport/exact/ordinate_totals.h"
 #include "transport/slab/slab.h"
 
 namespace searchlight {

@@ -21,6 +21,7 @@ namespace searchlight {
 namespace {
 
 constexpr std::size_t kMostSlots = std::size_t{1} << 22;  // of which a few per thread are in memory at once
+constexpr std::size_t kMostPlanned = 200'000;             // where the best estimator is worth its pilot
 constexpr double kLargest = 1e9;
 // Free paths in a clear layer: longer than anything, its products within float.
 constexpr double kClearMfp = 1e30;
@@ -329,7 +330,10 @@ SlabResult walkSlab(const SlabProblem& problem, const SlabOptions& options, Obse
 
     const SlabWalk walk = walkOf(problem, entry);
     std::optional<SlabBestPlan> best;
-    if (options.estimator == SlabEstimator::best && !options.gl) {
+    // What a pilot has to learn of more would take longer than most walks.
+    if (options.estimator == SlabEstimator::best && !options.gl && layout.slots() > kMostPlanned) {
+        observer.log(LogLevel::info, fmt::format("{} tallies: the analogue estimator walks", layout.slots()));
+    } else if (options.estimator == SlabEstimator::best && !options.gl) {
         best.emplace(walk, options.edges_mm, layout);
         result.estimator = SlabEstimator::best;
         result.foresees = best->mix.foresees;
