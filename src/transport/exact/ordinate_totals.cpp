@@ -129,17 +129,20 @@ std::string whyNotOrdinateTotals(const SlabProblem& problem) {
     double n_min = std::min(problem.n_above, problem.n_below), n_max = std::max(problem.n_above, problem.n_below);
     for (std::size_t i = 0; i < problem.layers.size(); ++i) {
         const SlabLayer& layer = problem.layers[i];
-        const std::string name = fmt::format("layer {}", i + 1);
+        const bool alone = problem.layers.size() == 1;
+        const std::string name = alone ? "the layer" : fmt::format("layer {}", i + 1);
         n_min = std::min(n_min, layer.n);
         n_max = std::max(n_max, layer.n);
         if (layer.sigma_s == 0) continue;
         if (layer.phase) return name + " has a tabulated phase function";
         if (layer.thickness_mm == 0) return name + " has no thickness";
         if (!(std::abs(layer.g) <= kOrdinateLargestG))
-            return fmt::format("|g| {} of {} is above {}", std::abs(layer.g), name, kOrdinateLargestG);
+            return fmt::format("|g| {}{} is above {}", std::abs(layer.g), alone ? "" : " of " + name,
+                               kOrdinateLargestG);
         const double albedo = layer.sigma_s / (layer.sigma_a + layer.sigma_s);
         if (std::isinf(layer.thickness_mm) && !(albedo <= kOrdinateLargestAlbedo))
-            return fmt::format("{} is infinite and its albedo {} is above {}", name, albedo, kOrdinateLargestAlbedo);
+            return fmt::format("the albedo {}{} is above {}", albedo,
+                               alone ? "" : fmt::format(" of {}, which has no end,", name), kOrdinateLargestAlbedo);
     }
     if (scatters(problem) && n_max > kOrdinateLargestRatio * n_min)
         return fmt::format("the refractive indices {} and {} differ by more than a factor of {}", n_min, n_max,

@@ -93,13 +93,13 @@ BodyResult resultOf(const ChunkedResult& walked, const Body& body, const Pilot& 
     const auto total = [&](std::size_t sum) { return by[per_candidate].estimate(sum, n).mean * candidates; };
     const auto count = [&](Count of) { return static_cast<std::uint64_t>(std::llround(total(of))); };
     // An error is at least that of one walk of the lot: few may all have met the same end.
-    const auto known = [&](Per per, std::size_t sum, std::uint64_t count, double most) {
-        Estimate e = by[per].estimate(sum, count);
+    const auto known = [&](Per per, std::size_t sum, double most) {
+        Estimate e = by[per].estimate(sum, n);
         if (most > 0) e.standard_error = std::max(e.standard_error, 1 / most);
         return e;
     };
     const auto flux = [&](Sum sum) {
-        const Estimate e = known(per_candidate, sum, n, candidates);
+        const Estimate e = known(per_candidate, sum, candidates);
         return Estimate{pilot.whole * e.mean, pilot.whole * e.standard_error, n};
     };
     r.candidates = n;
@@ -110,8 +110,8 @@ BodyResult resultOf(const ChunkedResult& walked, const Body& body, const Pilot& 
     r.incident = flux(incident);
     r.entered = flux(entered);
     r.left = flux(left);
-    r.reflectance = known(per_incident, left, n, total(incident));
-    r.absorbed = known(per_incident, absorbed, n, total(incident));
+    r.reflectance = known(per_incident, left, total(incident));
+    r.absorbed = known(per_incident, absorbed, total(incident));
     r.collisions_per_entry = by[per_entry].estimate(collisions, r.entries);
     for (std::size_t axis = 0; axis < 3; ++axis) r.mean_exit[axis] = by[per_left].estimate(exit_x + axis, n);
     for (std::size_t cell = 0; cell < body.cellCount(); ++cell) {
