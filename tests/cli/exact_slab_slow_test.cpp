@@ -1,6 +1,9 @@
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
+#include <utility>
 
 #include "program.h"
 
@@ -31,7 +34,18 @@ TEST_F(Program, ExactSlabHasTotalsAndProfilesWithTheirErrors) {
             EXPECT_LT(error, 0.02 * mean) << series << " " << i;
         }
     }
-    for (const char* walked : {"walks", "R_a", "R_single", "maps"}) EXPECT_FALSE(slab.contains(walked)) << walked;
+    // Per solid angle outside, in thirty parts of 90 degrees.
+    for (const auto& [series, total] : {std::pair{"R_a", "R"}, std::pair{"T_a", "T"}}) {
+        double sum = 0;
+        for (std::size_t i = 0; i < 30; ++i) {
+            const auto cosine = [](std::size_t edge) {
+                return std::cos(static_cast<double>(edge) / 60 * std::numbers::pi);
+            };
+            sum += slab.at(series).at("mean").at(i).get<double>() * 2 * std::numbers::pi * (cosine(i) - cosine(i + 1));
+        }
+        EXPECT_NEAR(sum, slab.at(total).at("mean").get<double>(), 1e-4) << series;
+    }
+    for (const char* walked : {"walks", "A_z", "R_single", "maps"}) EXPECT_FALSE(slab.contains(walked)) << walked;
 }
 
 }  // namespace
